@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/base/exception_text.h"
 #include "core/base/number_text.h"
 

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/base/replace_file.h"
+#include "core/base/files.h"
 
 namespace runnel::arena {
 

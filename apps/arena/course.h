@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "modules/worlds/algorithm/shortest_path.h"
 
 namespace runnel::arena {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 
 namespace runnel::arena {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 
 namespace runnel {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "apps/program.h"
-#include "core/base/replace_file.h"
+#include "core/base/files.h"
 #include "core/element/runtime.h"
 #include "core/plugin/plugin_manager.h"
 #include "plugins/manifest/plugin_manifest.h"

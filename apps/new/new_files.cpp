@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "core/base/characters.h"
-#include "core/base/replace_file.h"
+#include "core/base/files.h"
 
 namespace runnel::new_program {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/program.h"
-#include "core/base/replace_file.h"
+#include "core/base/files.h"
 #include "core/types/type_info.h"
 #include "plugins/application/application_description.h"
 #include "plugins/manifest/plugin_manifest.h"

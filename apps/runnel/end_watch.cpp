@@ -8,7 +8,7 @@
 #include "apps/runnel/commands.h"
 #include "apps/runnel/output.h"
 #include "core/element/own_thread.h"
-#include "core/element/try_structure_lock.h"
+#include "core/element/runtime.h"
 
 namespace runnel::program {
 

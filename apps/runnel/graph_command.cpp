@@ -4,8 +4,8 @@
 
 #include "apps/runnel/commands.h"
 #include "apps/runnel/output.h"
+#include "core/base/files.h"
 #include "core/base/program_output.h"
-#include "core/base/replace_file.h"
 #include "core/base/temporary_folder.h"
 #include "plugins/application/application_description.h"
 #include "plugins/application/dot_text.h"

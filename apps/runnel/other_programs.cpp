@@ -9,7 +9,7 @@
 
 #include <unistd.h>
 
-#include "core/base/folder_names.h"
+#include "core/base/files.h"
 #include "plugins/real_time_check/sanitizer.h"
 
 namespace runnel::program {

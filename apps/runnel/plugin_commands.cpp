@@ -12,7 +12,7 @@
 #include "apps/runnel/commands.h"
 #include "apps/runnel/output.h"
 #include "core/base/characters.h"
-#include "core/base/replace_file.h"
+#include "core/base/files.h"
 #include "plugins/application/application_description.h"
 #include "plugins/application/schema.h"
 #include "plugins/manifest/module_description.h"

@@ -6,7 +6,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "modules/simulation/algorithm/physics_world.h"
 #include "modules/simulation/world_file/world_file.h"
 #include "tests/integration/application_run.h"

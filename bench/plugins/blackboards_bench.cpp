@@ -10,7 +10,7 @@
 
 #include "core/element/runtime.h"
 #include "core/module/module.h"
-#include "core/module/own_cycle.h"
+#include "core/port/cycle.h"
 #include "plugins/blackboards/blackboard.h"
 #include "plugins/blackboards/blackboard_writer.h"
 

@@ -8,7 +8,7 @@
 
 #include "core/element/runtime.h"
 #include "core/module/module.h"
-#include "core/module/own_cycle.h"
+#include "core/port/cycle.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
 #include "plugins/services/client.h"

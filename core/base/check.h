@@ -1,6 +1,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace runnel {
@@ -12,7 +13,9 @@ class ProgrammingError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-[[noreturn]] void ThrowProgrammingError(std::string_view what, std::string_view detail);
+[[noreturn]] inline void ThrowProgrammingError(std::string_view what, std::string_view detail) {
+  throw ProgrammingError(std::string(what) + " (" + std::string(detail) + ")");
+}
 
 }  // namespace runnel
 

@@ -1,7 +1,9 @@
 #include "core/base/error.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <tuple>
 
 namespace runnel {
 
@@ -40,6 +42,29 @@ Error Error::WithPosition(SourcePosition at) const {
 Error SystemError(std::string_view what, std::string file) {
   const Error error{.message = std::strerror(errno), .position = {std::move(file)}};
   return error.WithContext(what);
+}
+
+namespace {
+
+void AppendLines(std::vector<Error> entries, const std::string& kind, std::string& text) {
+  std::stable_sort(entries.begin(), entries.end(), [](const Error& a, const Error& b) {
+    return std::tie(a.position.file, a.position.line, a.position.column) <
+           std::tie(b.position.file, b.position.line, b.position.column);
+  });
+  for (Error& entry : entries) {
+    entry.message.insert(0, kind + (entry.path.empty() ? "" : entry.path + ": "));
+    entry.path.clear();  // said inside the message, after the kind
+    text += entry.ToString() + "\n";
+  }
+}
+
+}  // namespace
+
+std::string Diagnostics::ToString() const {
+  std::string text;
+  AppendLines(errors_, "error: ", text);
+  AppendLines(warnings_, "warning: ", text);
+  return text;
 }
 
 }  // namespace runnel

@@ -8,7 +8,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/channel/buffer_reference.h"
 #include "core/channel/lease.h"
 #include "core/channel/probe_queue.h"
 #include "core/lockfree/publication.h"

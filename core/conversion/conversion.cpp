@@ -7,9 +7,9 @@
 
 #include "core/base/nearest_name.h"
 #include "core/conversion/number_conversion.h"
-#include "core/types/signal.h"
+#include "core/types/builtin_types.h"
 #include "core/types/text_format.h"
-#include "core/types/value_copy.h"
+#include "core/types/type_info.h"
 
 namespace runnel {
 

@@ -236,4 +236,13 @@ void Runtime::RemoveListener(ElementListener& listener) {
   std::erase(listeners_, &listener);
 }
 
+std::unique_lock<OrderedMutex> TryStructureLock(Runtime& runtime, Duration patience) {
+  std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
+  for (const Time latest = SteadyClock().Now() + patience; !lock && SteadyClock().Now() < latest;
+       (void)lock.try_lock()) {
+    std::this_thread::sleep_for(std::min<Duration>(patience / 10, std::chrono::milliseconds(1)));
+  }
+  return lock;
+}
+
 }  // namespace runnel

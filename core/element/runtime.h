@@ -161,4 +161,8 @@ class ChangeScope {
   const std::lock_guard<OrderedMutex> lock_;
 };
 
+/// For who can do without the structure lock, and must not wait for long: others have it for a moment again and again, so it
+/// is tried for so long. Threads: any that may sleep.
+[[nodiscard]] std::unique_lock<OrderedMutex> TryStructureLock(Runtime& runtime, Duration patience);
+
 }  // namespace runnel

@@ -2,8 +2,10 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/channel/subscribers.h"
 #include "core/element/annotation.h"
 #include "core/element/framework_element.h"
 
@@ -67,6 +69,21 @@ class Executable final : public Annotation {
 
  private:
   std::function<std::vector<Task>()> tasks_;
+};
+
+/// "Besides new data at my inputs, something else sets me off, if triggers do": the annotation of an element that is
+/// Executable, by which an executor says whom to wake.
+///
+/// Threads: under the structure lock. What is set is woken inside an epoch guard, so that the executor knows when
+///          nobody does any more.
+class WakeSource final : public Annotation {
+ public:
+  /// `set`: from now on this waker; nullptr: nobody. It wakes at once if something waits already.
+  explicit WakeSource(std::function<void(Waker*)> set) : set_(std::move(set)) {}
+  void SetWaker(Waker* waker) const { set_(waker); }
+
+ private:
+  std::function<void(Waker*)> set_;
 };
 
 }  // namespace runnel

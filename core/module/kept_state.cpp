@@ -7,7 +7,6 @@
 #include "core/base/check.h"
 #include "core/element/framework_element.h"
 #include "core/types/type_info.h"
-#include "core/types/value_copy.h"
 
 namespace runnel {
 

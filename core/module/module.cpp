@@ -2,7 +2,7 @@
 
 #include "core/element/runtime.h"
 #include "core/module/executable.h"
-#include "core/module/port_group.h"
+#include "core/module/group.h"
 #include "core/port/cycle.h"
 
 namespace runnel {

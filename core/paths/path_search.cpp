@@ -6,7 +6,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/element/element_path.h"
-#include "core/element/former_name.h"
+#include "core/element/file_notes.h"
 #include "core/paths/distant_ports.h"
 #include "core/port/parameter_input.h"
 

@@ -9,7 +9,7 @@
 
 namespace runnel {
 
-/// Why code that was built with one fingerprint (`abi.h`) cannot use classes of another, for people.
+/// Why code that was built with one fingerprint (`plugin_entry.h`) cannot use classes of another, for people.
 struct AbiDifference {
   std::string why;   ///< "it is built for AVX-512, this core is not"
   std::string cure;  ///< "build the plugin without -march=native, -mavx512f and the like"

@@ -1,11 +1,52 @@
 #pragma once
 
+#include <cstddef>  // defines _GLIBCXX_USE_CXX11_ABI
 #include <cstdint>
 
-#include "core/plugin/abi.h"
 #include "core/plugin/plugin_registry.h"
 
 namespace runnel {
+
+#define RUNNEL_PLUGIN_ABI_VERSION 2
+/// Changes whenever a class that crosses the plugin boundary changes its layout or its meaning.
+inline constexpr unsigned kPluginAbiVersion = RUNNEL_PLUGIN_ABI_VERSION;
+
+/// What the code that includes this header was built with, as far as it decides whether C++ objects
+/// can be handed over: compiler ABI, standard library and its debug mode, sanitizer, the vector
+/// instructions, by which Eigen chooses how its types are aligned, and the core's ABI version.
+#define RUNNEL_STRINGIFY_INNER(text) #text
+#define RUNNEL_STRINGIFY(text) RUNNEL_STRINGIFY_INNER(text)
+#if defined(__SANITIZE_THREAD__)
+#define RUNNEL_ABI_SANITIZER " thread-sanitizer"
+#elif defined(__SANITIZE_ADDRESS__)
+#define RUNNEL_ABI_SANITIZER " address-sanitizer"
+#else
+#define RUNNEL_ABI_SANITIZER ""
+#endif
+#if defined(_GLIBCXX_DEBUG)
+#define RUNNEL_ABI_DEBUG " debug"
+#else
+#define RUNNEL_ABI_DEBUG ""
+#endif
+#if defined(__AVX512F__)
+#define RUNNEL_ABI_VECTOR " avx512"
+#elif defined(__AVX__)
+#define RUNNEL_ABI_VECTOR " avx"
+#else
+#define RUNNEL_ABI_VECTOR ""
+#endif
+// clang-format off
+inline constexpr const char* kAbiFingerprint =
+    "runnel-abi-" RUNNEL_STRINGIFY(RUNNEL_PLUGIN_ABI_VERSION)
+    " gxx" RUNNEL_STRINGIFY(__GXX_ABI_VERSION)
+    " libstdcxx" RUNNEL_STRINGIFY(_GLIBCXX_RELEASE)
+    " cxx11abi" RUNNEL_STRINGIFY(_GLIBCXX_USE_CXX11_ABI)
+    " pointer" RUNNEL_STRINGIFY(__SIZEOF_POINTER__)
+    RUNNEL_ABI_DEBUG RUNNEL_ABI_VECTOR RUNNEL_ABI_SANITIZER;
+// clang-format on
+
+/// The fingerprint of the core itself, as it was built.
+[[nodiscard]] const char* CoreAbiFingerprint() noexcept;
 
 /// What a plugin library exports. Plain data, so that it can be read before any C++ class of the
 /// library is trusted. The first two members never change their place.

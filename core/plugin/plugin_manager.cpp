@@ -7,7 +7,7 @@
 #include <dlfcn.h>
 
 #include "core/base/characters.h"
-#include "core/base/folder_names.h"
+#include "core/base/files.h"
 #include "core/base/nearest_name.h"
 #include "core/element/attempt.h"
 #include "core/plugin/abi_difference.h"

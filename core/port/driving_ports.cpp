@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "core/element/try_structure_lock.h"
+#include "core/element/runtime.h"
 #include "core/port/parameter_input.h"
 
 namespace runnel {

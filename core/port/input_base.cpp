@@ -9,7 +9,7 @@
 #include "core/channel/channel_base.h"
 #include "core/element/runtime.h"
 #include "core/lockfree/thread_epoch.h"
-#include "core/port/given_limits.h"
+#include "core/port/port_options.h"
 #include "core/port/port_stop.h"
 
 namespace runnel {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/base/clock.h"
+#include "core/channel/subscribers.h"
 #include "core/channel/value_times.h"
-#include "core/channel/waker.h"
 #include "core/element/framework_element.h"
 #include "core/element/runtime.h"
 #include "core/port/cycle.h"

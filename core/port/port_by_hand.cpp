@@ -15,7 +15,6 @@
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
 #include "core/types/type_info.h"
-#include "core/types/value_copy.h"
 
 namespace runnel {
 

@@ -13,7 +13,6 @@
 #include "core/port/port_extras.h"
 #include "core/types/type_info.h"
 #include "core/types/type_of.h"
-#include "core/types/value_copy.h"
 
 namespace runnel {
 

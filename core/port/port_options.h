@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/clock.h"
 #include "core/channel/channel_options.h"
+#include "core/element/annotation.h"
 #include "core/lockfree/buffer_pool.h"
 #include "core/port/driving_kind.h"
 #include "core/types/any_value.h"
@@ -90,6 +93,16 @@ struct OutputOptions {
   PoolOptions pool = {};  ///< for types that travel in buffers; others have none
   bool pullable = false;  ///< may have a provider; the provider's buffers are a second such pool
   std::string unit = {};  ///< SI, of numbers
+};
+
+/// The limits that an application gives to an input, as an annotation of the port: what they leave open is as its
+/// module has it. They take effect when the module becomes ready, and go over to one that replaces it.
+struct GivenLimits final : Annotation {
+  explicit GivenLimits(InputLimits given) : limits(std::move(given)) {}
+  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
+    return std::make_unique<GivenLimits>(limits);
+  }
+  InputLimits limits;
 };
 
 }  // namespace runnel

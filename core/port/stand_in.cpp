@@ -9,9 +9,9 @@
 #include "core/element/runtime.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/port/typed_ports.h"
-#include "core/types/signal.h"
+#include "core/types/builtin_types.h"
+#include "core/types/type_info.h"
 #include "core/types/type_of.h"
-#include "core/types/value_copy.h"
 
 namespace runnel::internal {
 

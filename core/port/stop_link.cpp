@@ -13,8 +13,8 @@
 #include "core/element/runtime.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/types/text_format.h"
+#include "core/types/type_info.h"
 #include "core/types/type_of.h"
-#include "core/types/value_copy.h"
 
 namespace runnel::internal {
 

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "core/types/duration_text.h"
-#include "core/types/signal.h"
 #include "core/types/type_of.h"
 
 namespace runnel {

@@ -13,6 +13,14 @@
 
 namespace runnel {
 
+/// That something has happened: a value without content, of which only counts that it came, and when. Anything
+/// can be connected to an input of signals.
+struct Signal {
+  friend bool operator==(const Signal&, const Signal&) = default;
+};
+
+void Describe(TypeBuilder<Signal>& type);
+
 /// The types that need no description by anybody else. Duration reads and writes "20ms", a Time is
 /// the duration since its clock's start. Lists are called after their elements: "double[]",
 /// "Pose2[3]", "Point2?".

@@ -6,10 +6,9 @@
 
 #include <tinyxml2.h>
 
-#include "core/base/folder_names.h"
+#include "core/base/files.h"
 #include "core/base/nearest_name.h"
-#include "core/xml/internal/text_cursor.h"
-#include "core/xml/internal/xml_node.h"
+#include "core/xml/internal/xml_scanner.h"
 
 namespace runnel {
 

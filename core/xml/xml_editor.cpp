@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "core/base/characters.h"
-#include "core/xml/internal/text_cursor.h"
+#include "core/xml/internal/xml_scanner.h"
 
 namespace runnel {
 

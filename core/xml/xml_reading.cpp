@@ -7,7 +7,7 @@
 #include "core/base/characters.h"
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
-#include "core/xml/internal/text_cursor.h"
+#include "core/xml/internal/xml_scanner.h"
 
 namespace runnel {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/xml/xml_document.h"
 
 namespace runnel {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/types/signal.h"
+#include "core/types/builtin_types.h"
 #include "modules/behaviours/algorithm/conditions.h"
 #include "plugins/behaviours/behaviour.h"
 #include "plugins/parameters/input_timeout.h"

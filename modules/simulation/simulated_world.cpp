@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "modules/simulation/algorithm/outline.h"
 #include "modules/simulation/algorithm/world_geometry.h"
 #include "modules/simulation/world_file/world_file.h"

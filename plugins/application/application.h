@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/element/runtime.h"
 #include "core/paths/path_search.h"
 #include "core/port/input.h"

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "core/base/exception_text.h"
+#include "core/element/file_notes.h"
 #include "core/element/runtime.h"
-#include "core/element/source_place.h"
 #include "core/module/executable.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/driving_ports.h"

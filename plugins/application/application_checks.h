@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/element/framework_element.h"
 #include "core/plugin/plugin_registry.h"
 

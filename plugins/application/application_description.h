@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/element/runtime.h"
 #include "core/plugin/plugin_manager.h"
 #include "plugins/application/application_checks.h"

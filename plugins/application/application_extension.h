@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/base/result.h"
 #include "plugins/application_files/application_builder.h"
 #include "plugins/command_service/command_service.h"

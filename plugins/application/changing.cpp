@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/element/attempt.h"
-#include "core/element/try_structure_lock.h"
+#include "core/element/runtime.h"
 #include "core/paths/distant_ports.h"
 #include "core/paths/late_connections.h"
 #include "core/paths/new_feeds.h"

@@ -4,8 +4,8 @@
 #include <array>
 #include <map>
 
-#include "core/base/diagnostics.h"
-#include "core/base/folder_names.h"
+#include "core/base/error.h"
+#include "core/base/files.h"
 #include "core/xml/xml_document.h"
 #include "core/xml/xml_reading.h"
 

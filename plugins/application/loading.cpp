@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/element/attempt.h"
-#include "core/element/source_place.h"
+#include "core/element/file_notes.h"
 #include "plugins/application/internal/application_parts.h"
 #include "plugins/application_tags/run_description.h"
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/exception_text.h"
-#include "core/element/source_place.h"
+#include "core/element/file_notes.h"
 #include "core/types/duration_text.h"
 
 namespace runnel {

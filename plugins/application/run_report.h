@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/element/element_listener.h"
 #include "core/element/runtime.h"
 #include "core/log/log_sink.h"

@@ -8,7 +8,7 @@
 #include "core/base/erase_where.h"
 #include "core/base/exception_text.h"
 #include "core/base/retry.h"
-#include "core/element/source_place.h"
+#include "core/element/file_notes.h"
 #include "plugins/application/internal/application_parts.h"
 
 namespace runnel {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/plugin/module_registry.h"
 #include "plugins/application_files/xml_tag.h"
 

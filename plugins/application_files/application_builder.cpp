@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/nearest_name.h"
-#include "core/element/source_place.h"
+#include "core/element/file_notes.h"
 #include "core/paths/late_connections.h"
 #include "core/paths/new_feeds.h"
 #include "core/port/port.h"

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/base/result.h"
 #include "core/element/annotation.h"
 #include "core/xml/xml_document.h"

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "core/base/nearest_name.h"
-#include "core/element/source_place.h"
+#include "core/element/file_notes.h"
 #include "core/xml/xml_reading.h"
 #include "plugins/application_files/application_builder.h"
 

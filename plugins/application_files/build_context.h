@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/element/runtime.h"
 #include "core/plugin/plugin_manager.h"
 #include "core/port/port.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/element/source_place.h"
+#include "core/element/file_notes.h"
 
 namespace runnel {
 

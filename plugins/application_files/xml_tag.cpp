@@ -7,7 +7,7 @@
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
 #include "core/element/element_path.h"
-#include "core/element/source_place.h"
+#include "core/element/file_notes.h"
 #include "core/types/duration_text.h"
 #include "core/xml/xml_reading.h"
 #include "plugins/application_files/build_context.h"

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "core/element/former_name.h"
+#include "core/element/file_notes.h"
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_tags/tag_list.h"
 #include "plugins/parameters/configuration.h"

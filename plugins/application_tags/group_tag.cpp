@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "core/element/source_place.h"
+#include "core/element/file_notes.h"
 #include "core/module/group.h"
 #include "core/plugin/module_type_name.h"
 #include "plugins/application_files/application_builder.h"

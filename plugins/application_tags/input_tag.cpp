@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/number_text.h"
-#include "core/port/given_limits.h"
+#include "core/port/port_options.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "core/types/type_of.h"

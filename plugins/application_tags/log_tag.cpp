@@ -1,7 +1,7 @@
 #include <map>
 #include <string>
 
-#include "core/element/not_saved.h"
+#include "core/element/file_notes.h"
 #include "core/log/log_level.h"
 #include "core/paths/path_search.h"
 #include "core/plugin/module_type_name.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/nearest_name.h"
-#include "core/element/source_place.h"
+#include "core/element/file_notes.h"
 #include "core/module/group_parameter.h"
 #include "core/plugin/module_type_name.h"
 #include "plugins/application_files/build_context.h"

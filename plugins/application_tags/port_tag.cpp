@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/conversion/value_part.h"
-#include "core/element/source_place.h"
+#include "core/element/file_notes.h"
 #include "core/port/proxy_port.h"
 #include "core/types/type_info.h"
 #include "plugins/application_files/build_context.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/nearest_name.h"
-#include "core/element/not_saved.h"
+#include "core/element/file_notes.h"
 #include "core/module/group.h"
 #include "core/types/duration_text.h"
 #include "plugins/application_files/build_context.h"

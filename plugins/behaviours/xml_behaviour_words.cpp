@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 
-#include "core/base/replace_file.h"
+#include "core/base/files.h"
+#include "core/element/file_notes.h"
 #include "core/element/runtime.h"
-#include "core/element/source_place.h"
 #include "plugins/application/application_checks.h"
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"

@@ -5,11 +5,10 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/types/builtin_types.h"
 #include "core/types/leaf_types.h"
 #include "core/types/shared_vector_types.h"
-#include "core/types/signal.h"
 #include "core/types/type_info.h"
-#include "core/types/value_copy.h"
 #include "plugins/cdr_values/cdr_values.h"
 #include "plugins/cdr_values/cdr_walk.h"
 #include "plugins/cdr_values/internal/cdr_enumeration.h"

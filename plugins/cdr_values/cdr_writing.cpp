@@ -4,8 +4,8 @@
 #include <string>
 #include <type_traits>
 
+#include "core/types/builtin_types.h"
 #include "core/types/leaf_types.h"
-#include "core/types/signal.h"
 #include "core/types/type_info.h"
 #include "plugins/cdr_values/cdr_values.h"
 #include "plugins/cdr_values/internal/cdr_enumeration.h"

@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "core/base/clock.h"
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/base/result.h"
 #include "plugins/structure/change_text.h"
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/element/try_structure_lock.h"
+#include "core/element/runtime.h"
 #include "core/paths/late_connections.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/driving_ports.h"

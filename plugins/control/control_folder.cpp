@@ -19,7 +19,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-#include "core/base/folder_names.h"
+#include "core/base/files.h"
 
 namespace runnel {
 

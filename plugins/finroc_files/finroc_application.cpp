@@ -3,7 +3,7 @@
 #include <memory>
 #include <mutex>
 
-#include "core/element/source_place.h"
+#include "core/element/file_notes.h"
 #include "core/module/group.h"
 #include "plugins/finroc_files/finroc_names.h"
 #include "plugins/finroc_files/finroc_reader.h"

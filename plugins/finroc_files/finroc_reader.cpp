@@ -7,7 +7,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/conversion/conversion.h"
-#include "core/element/source_place.h"
+#include "core/element/file_notes.h"
 #include "core/module/group.h"
 #include "core/paths/late_connections.h"
 #include "core/port/proxy_port.h"

@@ -7,8 +7,8 @@
 #include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"
 #include "core/element/runtime.h"
-#include "core/module/hand_over.h"
-#include "core/module/wake_source.h"
+#include "core/module/executable.h"
+#include "core/module/kept_state.h"
 #include "core/port/cycle.h"
 #include "plugins/scheduling/thread_container.h"
 

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/channel/waker.h"
+#include "core/channel/subscribers.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/lockfree/wake_event.h"
 #include "core/module/module.h"

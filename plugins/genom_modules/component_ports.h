@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/module/port_group.h"
+#include "core/module/group.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
 #include "plugins/genom_modules/codel_values.h"

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <utility>
 
+#include "core/base/files.h"
 #include "core/base/program_output.h"
-#include "core/base/replace_file.h"
 #include "core/base/temporary_folder.h"
 #include "plugins/genom_text/file_text.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/base/result.h"
 
 namespace runnel::genom {

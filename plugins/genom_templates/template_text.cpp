@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/characters.h"
-#include "core/base/folder_names.h"
+#include "core/base/files.h"
 #include "core/base/nearest_name.h"
 #include "plugins/genom_templates/template_run.h"
 

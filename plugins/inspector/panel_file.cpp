@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/files.h"
 #include "core/base/nearest_name.h"
-#include "core/base/replace_file.h"
 #include "plugins/values/json_reader.h"
 
 namespace runnel {

@@ -13,7 +13,7 @@
 #include <fmt/ranges.h>
 #include <link.h>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/xml/xml_document.h"
 #include "core/xml/xml_reading.h"

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/element/element_path.h"
-#include "core/element/not_saved.h"
+#include "core/element/file_notes.h"
 #include "core/element/runtime.h"
 #include "core/paths/distant_ports.h"
 #include "core/port/typed_ports.h"

@@ -7,7 +7,7 @@
 
 #include "core/base/exception_text.h"
 #include "core/element/element_path.h"
-#include "core/element/not_saved.h"
+#include "core/element/file_notes.h"
 #include "core/element/runtime.h"
 #include "plugins/network/network_ports.h"
 #include "plugins/network_discovery/distant_type.h"

@@ -7,7 +7,7 @@
 #include "core/conversion/conversion.h"
 #include "core/paths/late_connections.h"
 #include "core/port/probe_port.h"
-#include "core/types/signal.h"
+#include "core/types/builtin_types.h"
 #include "core/types/type_of.h"
 
 namespace runnel {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/base/clock.h"
-#include "core/channel/waker.h"
+#include "core/channel/subscribers.h"
 #include "core/lockfree/wake_event.h"
 #include "core/module/after_cycle.h"
 #include "core/port/port_stop.h"

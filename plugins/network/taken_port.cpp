@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/element/runtime.h"
-#include "core/module/own_cycle.h"
+#include "core/port/cycle.h"
 #include "core/port/driving_ports.h"
 #include "plugins/network_discovery/discovery_table.h"
 #include "plugins/ros_messages/names.h"

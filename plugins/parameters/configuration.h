@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/base/result.h"
 #include "core/element/annotation.h"
 #include "core/element/framework_element.h"

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/base/characters.h"
-#include "core/base/replace_file.h"
+#include "core/base/files.h"
 #include "core/base/retry.h"
 #include "core/element/configurable.h"
 #include "core/element/element_path.h"

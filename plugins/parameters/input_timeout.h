@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/base/clock.h"
-#include "core/element/former_name.h"
+#include "core/element/file_notes.h"
 #include "core/element/runtime.h"
 #include "core/log/logger.h"
 #include "core/port/input.h"

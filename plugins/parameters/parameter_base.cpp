@@ -11,8 +11,8 @@
 #include "core/base/unit.h"
 #include "core/element/runtime.h"
 #include "core/module/executable.h"
+#include "core/module/group.h"
 #include "core/module/module.h"
-#include "core/module/port_group.h"
 #include "core/paths/new_feeds.h"
 #include "core/port/typed_ports.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/element/element_path.h"
-#include "core/element/source_place.h"
+#include "core/element/file_notes.h"
 #include "core/module/module.h"
 #include "core/plugin/plugin_entry.h"
 #include "core/port/output.h"

@@ -7,11 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/element/attempt.h"
 #include "core/module/executable.h"
 #include "core/module/group.h"
-#include "core/module/port_group.h"
 #include "core/port/typed_ports.h"
 #include "core/types/duration_text.h"
 #include "core/types/type_info.h"

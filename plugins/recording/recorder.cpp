@@ -10,7 +10,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/element/attempt.h"
-#include "core/element/not_saved.h"
+#include "core/element/file_notes.h"
 #include "core/types/type_info.h"
 #include "plugins/mcap/compression.h"
 #include "plugins/mcap/mcap_writer.h"

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/base/nearest_name.h"
-#include "core/element/not_saved.h"
+#include "core/element/file_notes.h"
 #include "core/element/runtime.h"
 #include "core/module/module.h"
 #include "core/module/run_monitor.h"

@@ -66,7 +66,7 @@ class HeaderWriter {
     std::string text = "#pragma once\n\n// " + message.name + " of ROS 2, written by 'runnel ros2 import'.\n\n";
     for (const char* header : {"array", "cstdint", "string", "vector"})
       text += "#include <" + std::string(header) + ">\n";
-    text += uses_signals_ ? "\n#include <runnel/core/types/signal.h>\n#include <runnel/types.h>\n\n"
+    text += uses_signals_ ? "\n#include <runnel/core/types/builtin_types.h>\n#include <runnel/types.h>\n\n"
                           : "\n#include <runnel/types.h>\n\n";
     for (const std::string& include : includes_) text += "#include \"" + include + "\"\n";
     if (!includes_.empty()) text += "\n";

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/nearest_name.h"
-#include "core/types/signal.h"
+#include "core/types/builtin_types.h"
 #include "core/types/type_of.h"
 #include "plugins/ros_messages/message_codec.h"
 #include "plugins/ros_messages/message_library.h"

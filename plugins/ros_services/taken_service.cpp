@@ -9,7 +9,7 @@
 #include "core/base/exception_text.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/lockfree/wake_event.h"
-#include "core/module/own_cycle.h"
+#include "core/port/cycle.h"
 
 namespace runnel {
 

@@ -5,7 +5,7 @@
 
 #include "core/base/retry.h"
 #include "core/lockfree/thread_epoch.h"
-#include "core/module/wake_source.h"
+#include "core/module/executable.h"
 #include "core/port/input_base.h"
 #include "plugins/scheduling/schedule_compiler.h"
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/channel/waker.h"
+#include "core/channel/subscribers.h"
 #include "plugins/scheduling/fault_dispatcher.h"
 #include "plugins/scheduling/task_watch.h"
 #include "plugins/timing/task_meter.h"

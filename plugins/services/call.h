@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/clock.h"
-#include "core/channel/waker.h"
+#include "core/channel/subscribers.h"
 #include "core/element/robot_stop.h"
 #include "core/lockfree/wake_event.h"
 #include "core/types/type_of.h"

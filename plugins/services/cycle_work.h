@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "core/base/exception_text.h"
-#include "core/channel/waker.h"
+#include "core/channel/subscribers.h"
 #include "core/element/annotation.h"
 #include "core/module/executable.h"
-#include "core/module/wake_source.h"
 
 namespace runnel {
 

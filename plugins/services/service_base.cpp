@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/base/exception_text.h"
-#include "core/element/not_saved.h"
+#include "core/element/file_notes.h"
 #include "core/element/own_thread.h"
 #include "core/element/runtime.h"
 #include "core/lockfree/thread_epoch.h"

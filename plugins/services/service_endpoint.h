@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/channel/waker.h"
+#include "core/channel/subscribers.h"
 #include "core/lockfree/bounded_queue.h"
 #include "plugins/services/call.h"
 

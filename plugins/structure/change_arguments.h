@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
 

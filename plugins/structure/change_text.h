@@ -4,7 +4,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/diagnostics.h"
 #include "core/base/error.h"
 #include "plugins/structure/change.h"
 

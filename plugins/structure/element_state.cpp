@@ -4,11 +4,11 @@
 #include <memory>
 #include <optional>
 
-#include "core/element/not_saved.h"
+#include "core/element/file_notes.h"
 #include "core/element/runtime.h"
 #include "core/element/tags.h"
 #include "core/port/driving_ports.h"
-#include "core/port/given_limits.h"
+#include "core/port/port_options.h"
 #include "core/port/port_stop.h"
 #include "core/port/probe_port.h"
 #include "core/port/stand_in.h"

@@ -9,7 +9,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/element/attempt.h"
-#include "core/element/former_name.h"
+#include "core/element/file_notes.h"
 #include "core/element/runtime.h"
 #include "core/module/group_parameter.h"
 

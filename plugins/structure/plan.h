@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/element/configurable.h"
 #include "core/element/runtime.h"
 #include "core/element/unlisted_element.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/element/element_path.h"
-#include "core/element/source_place.h"
+#include "core/element/file_notes.h"
 #include "core/module/group.h"
 #include "core/module/group_parameter.h"
 #include "core/paths/late_connections.h"

@@ -12,8 +12,8 @@
 #include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
 #include "core/port/converted_flow.h"
-#include "core/port/given_limits.h"
 #include "core/port/parameter_input.h"
+#include "core/port/port_options.h"
 #include "core/port/port_stop.h"
 #include "plugins/structure/module_values.h"
 

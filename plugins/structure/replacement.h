@@ -5,7 +5,7 @@
 
 #include "core/base/result.h"
 #include "core/element/framework_element.h"
-#include "core/module/hand_over.h"
+#include "core/module/kept_state.h"
 #include "core/port/port.h"
 #include "plugins/structure/change.h"
 #include "plugins/structure/structure_overlay.h"

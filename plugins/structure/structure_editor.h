@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/clock.h"
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/element/runtime.h"
 #include "core/plugin/module_registry.h"
 #include "plugins/scheduling/scheduler.h"

@@ -8,7 +8,6 @@
 #include "core/port/port_stop.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
-#include "core/types/value_copy.h"
 
 namespace runnel {
 

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "modules/simulation/algorithm/world_geometry.h"
 #include "modules/simulation/world_file/world_file.h"
 #include "tests/integration/application_run.h"

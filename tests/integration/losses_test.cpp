@@ -21,7 +21,7 @@
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
 #include "core/types/text_format.h"
-#include "core/types/value_copy.h"
+#include "core/types/type_info.h"
 #include "modules/types/algorithm/pose.h"
 #include "plugins/services/callable.h"
 #include "plugins/services/cycle_work.h"

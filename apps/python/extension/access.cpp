@@ -12,7 +12,7 @@
 #include "core/paths/path_search.h"
 #include "core/plugin/module_type_name.h"
 #include "core/types/text_format.h"
-#include "core/types/value_copy.h"
+#include "core/types/type_info.h"
 #include "plugins/command_service/application_log.h"
 #include "plugins/services/callable.h"
 

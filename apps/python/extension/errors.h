@@ -2,7 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/base/result.h"
 #include "plugins/structure/structure_editor.h"
 

@@ -8,7 +8,7 @@
 #include "core/base/nearest_name.h"
 #include "core/types/leaf_types.h"
 #include "core/types/text_format.h"
-#include "core/types/value_copy.h"
+#include "core/types/type_info.h"
 
 namespace py = pybind11;
 

@@ -9,7 +9,7 @@
 #include "apps/python/extension/interpreter.h"
 #include "apps/python/extension/value.h"
 #include "core/port/cycle.h"
-#include "core/types/value_copy.h"
+#include "core/types/type_info.h"
 
 namespace py = pybind11;
 

@@ -9,7 +9,7 @@
 
 #include "apps/python/extension/errors.h"
 #include "apps/python/extension/value.h"
-#include "core/element/not_saved.h"
+#include "core/element/file_notes.h"
 #include "core/paths/path_search.h"
 #include "plugins/application/run_report.h"
 

@@ -9,8 +9,8 @@
 
 #include "apps/python/extension/errors.h"
 #include "apps/python/extension/value.h"
-#include "core/element/source_place.h"
-#include "core/module/hand_over.h"
+#include "core/element/file_notes.h"
+#include "core/module/kept_state.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/parameters/static_parameter.h"
 #include "plugins/scheduling/thread_container.h"

@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "bench/plugins/network/network_bench.h"
-#include "core/module/own_cycle.h"
+#include "core/port/cycle.h"
 
 namespace runnel {
 

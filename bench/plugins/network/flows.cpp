@@ -9,7 +9,7 @@
 
 #include "bench/plugins/network/network_bench.h"
 #include "core/module/after_cycle.h"
-#include "core/module/own_cycle.h"
+#include "core/port/cycle.h"
 
 namespace runnel {
 

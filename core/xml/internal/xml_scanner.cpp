@@ -1,3 +1,5 @@
+#include "core/xml/internal/xml_scanner.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -6,8 +8,6 @@
 #include <utility>
 
 #include "core/base/characters.h"
-#include "core/xml/internal/text_cursor.h"
-#include "core/xml/internal/xml_node.h"
 
 namespace runnel::internal {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/base/result.h"
 #include "modules/simulation/algorithm/world.h"
 

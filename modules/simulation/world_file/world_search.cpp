@@ -1,6 +1,6 @@
 #include <dlfcn.h>
 
-#include "core/base/folder_names.h"
+#include "core/base/files.h"
 #include "core/base/nearest_name.h"
 #include "modules/simulation/world_file/world_file.h"
 

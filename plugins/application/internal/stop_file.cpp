@@ -15,7 +15,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "core/base/folder_names.h"
+#include "core/base/files.h"
 #include "plugins/control/control_folder.h"
 
 namespace runnel {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/diagnostics.h"
+#include "core/base/error.h"
 #include "core/base/file_descriptor.h"
 #include "core/base/lookout.h"
 #include "core/base/result.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/replace_file.h"
+#include "core/base/files.h"
 #include "core/base/retry.h"
 #include "core/element/runtime.h"
 #include "core/paths/late_connections.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/element/source_place.h"
+#include "core/element/file_notes.h"
 #include "core/paths/distant_ports.h"
 #include "core/paths/path_search.h"
 #include "core/plugin/module_type_name.h"

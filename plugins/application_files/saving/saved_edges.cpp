@@ -3,7 +3,7 @@
 #include <set>
 
 #include "core/element/element_path.h"
-#include "core/element/not_saved.h"
+#include "core/element/file_notes.h"
 #include "core/paths/distant_ports.h"
 #include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/base/characters.h"
-#include "core/element/not_saved.h"
+#include "core/element/file_notes.h"
 #include "core/plugin/module_type_name.h"
 #include "plugins/parameters/value_to_save.h"
 

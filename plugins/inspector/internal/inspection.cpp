@@ -8,7 +8,7 @@
 
 #include <unistd.h>
 
-#include "core/base/replace_file.h"
+#include "core/base/files.h"
 #include "plugins/values/json_reader.h"
 #include "plugins/values/json_writer.h"
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "core/types/builtin_types.h"
 #include "core/types/leaf_types.h"
-#include "core/types/signal.h"
 #include "core/types/type_info.h"
 #include "plugins/ros_messages/message_definition.h"
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/types/type_info.h"
 #include "core/types/type_of.h"
-#include "core/types/value_copy.h"
 #include "plugins/cdr_values/cdr_values.h"
 #include "plugins/cdr_values/cdr_walk.h"
 #include "plugins/ros_messages/internal/binding.h"

@@ -1,6 +1,6 @@
-#include "core/base/diagnostics.h"
-
 #include <gtest/gtest.h>
+
+#include "core/base/error.h"
 
 namespace runnel {
 namespace {

@@ -1,9 +1,8 @@
-#include "core/base/folder_names.h"
-
 #include <fstream>
 
 #include <gmock/gmock.h>
 
+#include "core/base/files.h"
 #include "plugins/testing/fault_injection.h"
 #include "tests/support/temporary_folder.h"
 

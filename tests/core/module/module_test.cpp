@@ -1,6 +1,6 @@
 #include "core/module/module.h"
 
-#include "core/module/port_group.h"
+#include "core/module/group.h"
 #include "plugins/testing/allocation_guard.h"
 #include "plugins/testing/lock_probe.h"
 #include "tests/core/module/module_fixture.h"

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "core/element/runtime.h"
-#include "core/plugin/abi.h"
+#include "core/plugin/plugin_entry.h"
 #include "tests/core/plugin/tag_registry.h"
 #include "tests/support/temporary_folder.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/module/own_cycle.h"
+#include "core/port/cycle.h"
 #include "plugins/testing/allocation_guard.h"
 #include "plugins/testing/lock_probe.h"
 #include "tests/core/port/stop_fixture.h"

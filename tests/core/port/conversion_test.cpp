@@ -7,7 +7,7 @@
 
 #include "core/port/connection_rules.h"
 #include "core/port/probe_port.h"
-#include "core/types/signal.h"
+#include "core/types/builtin_types.h"
 #include "plugins/testing/allocation_guard.h"
 #include "tests/core/port/port_fixture.h"
 

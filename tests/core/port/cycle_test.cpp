@@ -2,7 +2,6 @@
 
 #include <thread>
 
-#include "core/module/own_cycle.h"
 #include "tests/core/port/port_fixture.h"
 
 namespace runnel::test {

@@ -1,7 +1,7 @@
 #include <atomic>
 #include <thread>
 
-#include "core/module/own_cycle.h"
+#include "core/port/cycle.h"
 #include "plugins/testing/allocation_guard.h"
 #include "plugins/testing/lock_probe.h"
 #include "tests/core/port/stop_fixture.h"

@@ -14,8 +14,8 @@
 #include "core/types/eigen_types.h"
 #include "core/types/shared_vector_types.h"
 #include "core/types/text_format.h"
+#include "core/types/type_info.h"
 #include "core/types/type_of.h"
-#include "core/types/value_copy.h"
 
 namespace example {
 

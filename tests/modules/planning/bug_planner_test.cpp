@@ -8,7 +8,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/types/value_copy.h"
+#include "core/types/type_info.h"
 #include "plugins/testing/module_rig.h"
 #include "tests/modules/planning/variant_index.h"
 

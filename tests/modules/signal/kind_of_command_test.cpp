@@ -7,7 +7,7 @@
 #include "core/module/group.h"
 #include "core/port/probe_port.h"
 #include "core/port/proxy_port.h"
-#include "core/types/signal.h"
+#include "core/types/builtin_types.h"
 #include "core/types/type_of.h"
 #include "modules/signal/filters.h"
 #include "modules/types/pose.h"

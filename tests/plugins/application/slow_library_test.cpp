@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/element/try_structure_lock.h"
+#include "core/element/runtime.h"
 #include "plugins/application/application.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/wait_until.h"

@@ -11,10 +11,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/element/former_name.h"
+#include "core/element/file_notes.h"
 #include "core/module/group.h"
 #include "core/module/group_parameter.h"
-#include "core/module/hand_over.h"
+#include "core/module/kept_state.h"
 #include "plugins/parameters/value_to_save.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/structure/change_history.h"

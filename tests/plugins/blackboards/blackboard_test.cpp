@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "core/module/own_cycle.h"
+#include "core/port/cycle.h"
 #include "plugins/testing/allocation_guard.h"
 #include "tests/plugins/blackboards/blackboard_fixture.h"
 

@@ -8,8 +8,8 @@
 
 #include <gmock/gmock.h>
 
+#include "core/types/builtin_types.h"
 #include "core/types/shared_vector_types.h"
-#include "core/types/signal.h"
 #include "core/types/text_format.h"
 #include "core/types/type_of.h"
 #include "plugins/testing/allocation_guard.h"

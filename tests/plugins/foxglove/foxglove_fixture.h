@@ -17,7 +17,6 @@
 #include "core/element/runtime.h"
 #include "core/module/group.h"
 #include "core/module/module.h"
-#include "core/module/port_group.h"
 #include "core/plugin/module_registry.h"
 #include "core/port/cycle.h"
 #include "core/port/input.h"

@@ -1,5 +1,5 @@
 #include "core/lockfree/thread_epoch.h"
-#include "core/module/hand_over.h"
+#include "core/module/kept_state.h"
 #include "core/port/port.h"
 #include "tests/plugins/genom_modules/component_fixture.h"
 

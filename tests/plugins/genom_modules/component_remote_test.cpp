@@ -1,6 +1,6 @@
 // Components that call each other's services: one whose codels are in C, and one in C++, in threads of one application.
 
-#include "core/module/hand_over.h"
+#include "core/module/kept_state.h"
 #include "core/plugin/plugin_manager.h"
 #include "plugins/scheduling/scheduler.h"
 #include "tests/plugins/genom_modules/component_fixture.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/module/kept_state.h"
-#include "core/types/value_copy.h"
+#include "core/types/type_info.h"
 #include "tests/plugins/genom_modules/component_fixture.h"
 
 namespace runnel::test {

@@ -8,7 +8,7 @@
 
 #include "core/lockfree/thread_epoch.h"
 #include "core/module/after_cycle.h"
-#include "core/module/own_cycle.h"
+#include "core/port/cycle.h"
 #include "tests/plugins/network/gated_engine.h"
 #include "tests/plugins/network/network_member.h"
 

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "core/paths/late_connections.h"
-#include "core/types/signal.h"
+#include "core/types/builtin_types.h"
 #include "tests/plugins/network/network_member.h"
 
 namespace runnel::test {

@@ -8,7 +8,7 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/module/after_cycle.h"
 #include "core/module/group.h"
-#include "core/module/own_cycle.h"
+#include "core/port/cycle.h"
 #include "core/port/output.h"
 #include "plugins/network/offered_port.h"
 #include "plugins/testing/fault_injection.h"

@@ -7,7 +7,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/types/signal.h"
+#include "core/types/builtin_types.h"
 #include "core/types/text_format.h"
 #include "modules/types/image.h"
 #include "modules/types/path.h"

@@ -6,7 +6,7 @@
 #include "core/element/runtime.h"
 #include "core/lockfree/wake_event.h"
 #include "core/module/group.h"
-#include "core/module/own_cycle.h"
+#include "core/port/cycle.h"
 #include "core/port/typed_ports.h"
 #include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/ros_messages/message_library.h"

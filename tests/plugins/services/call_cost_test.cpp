@@ -1,6 +1,6 @@
 // A call allocates nothing, in neither cycle.
 
-#include "core/module/own_cycle.h"
+#include "core/port/cycle.h"
 #include "plugins/testing/allocation_guard.h"
 #include "tests/plugins/services/service_fixture.h"
 

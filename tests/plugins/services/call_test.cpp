@@ -3,7 +3,7 @@
 #include <thread>
 
 #include "core/base/check.h"
-#include "core/module/own_cycle.h"
+#include "core/port/cycle.h"
 #include "tests/plugins/services/service_fixture.h"
 
 namespace runnel::test {

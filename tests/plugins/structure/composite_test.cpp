@@ -3,7 +3,7 @@
 #include "core/element/tags.h"
 #include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
-#include "core/port/given_limits.h"
+#include "core/port/port_options.h"
 #include "core/port/proxy_port.h"
 #include "core/port/stand_in.h"
 #include "plugins/structure/change_history.h"

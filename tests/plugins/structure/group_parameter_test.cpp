@@ -3,7 +3,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "core/module/hand_over.h"
+#include "core/module/kept_state.h"
 #include "plugins/structure/change_history.h"
 #include "tests/plugins/structure/editor_fixture.h"
 

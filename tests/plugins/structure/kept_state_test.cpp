@@ -4,8 +4,8 @@
 
 #include "core/element/tags.h"
 #include "core/log/log_level.h"
-#include "core/port/given_limits.h"
 #include "core/port/hand_slot.h"
+#include "core/port/port_options.h"
 #include "core/port/port_stop.h"
 #include "plugins/structure/change_history.h"
 #include "plugins/structure/value_by_hand.h"

@@ -2,7 +2,7 @@
 
 #include "core/paths/late_connections.h"
 
-#include "core/module/hand_over.h"
+#include "core/module/kept_state.h"
 #include "core/paths/distant_ports.h"
 #include "tests/plugins/structure/adder_fixture.h"
 

@@ -1,6 +1,6 @@
 // What a tag of the file has made, and somebody uses as long as it runs, is neither deleted nor renamed nor copied.
 
-#include "core/element/not_saved.h"
+#include "core/element/file_notes.h"
 #include "tests/plugins/structure/editor_fixture.h"
 
 namespace runnel::test {

@@ -1,4 +1,4 @@
-#include "core/module/hand_over.h"
+#include "core/module/kept_state.h"
 #include "tests/plugins/structure/editor_fixture.h"
 #include "tests/support/schedule_order.h"
 

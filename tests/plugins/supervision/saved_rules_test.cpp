@@ -7,7 +7,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/element/not_saved.h"
+#include "core/element/file_notes.h"
 #include "core/module/group.h"
 #include "core/paths/distant_ports.h"
 #include "plugins/application_tags/run_description.h"
@@ -318,10 +318,13 @@ class RulesInForceAndDefaults : public RulesInForce, public ::testing::WithParam
 INSTANTIATE_TEST_SUITE_P(, RulesInForceAndDefaults, ::testing::Values("1", "3", "7"));
 
 TEST_P(RulesInForceAndDefaults, AreSaved) {
-  const std::string file = FileWith(R"(  <module name="b" type="test/source">
-    <parameter name="gain" value=")" + GetParam() + R"("/>
+  const std::string file =
+      FileWith(R"(  <module name="b" type="test/source">
+    <parameter name="gain" value=")" +
+                   GetParam() + R"("/>
   </module>
-)", R"(<replace module="b" by="test/spare"/>)", R"(<replace module="b" by="test/source"/>)");
+)",
+               R"(<replace module="b" by="test/spare"/>)", R"(<replace module="b" by="test/source"/>)");
   const bool is_of_person = GetParam() == "3";
   Run(file, is_of_person ? ChangeSet{SetParameter{"/demo/b/gain", "1"}} : ChangeSet());
   const std::string saved = is_of_person ? "1" : GetParam();

@@ -7,7 +7,6 @@
 #define __AVX__ 1
 #endif
 
-#include "core/plugin/abi.h"
 #include "core/plugin/plugin_entry.h"
 
 extern "C" __attribute__((visibility("default"))) const runnel::PluginEntry* RunnelPluginEntry() {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/element/source_place.h"
+#include "core/element/file_notes.h"
 #include "core/port/proxy_port.h"
 #include "tests/plugins/application_files/reading/test_application.h"
 

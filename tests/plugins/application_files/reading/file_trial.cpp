@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "core/base/characters.h"
-#include "core/element/source_place.h"
+#include "core/element/file_notes.h"
 #include "core/types/type_info.h"
 #include "plugins/application_files/application_builder.h"
+#include "plugins/application_files/type_names.h"
 #include "plugins/application_tags/run_description.h"
 #include "plugins/finroc_files/finroc_application.h"
-#include "plugins/application_files/type_names.h"
 #include "tests/plugins/application_files/saving/application_text.h"
 #include "tests/plugins/application_files/saving/saving_workshop.h"
 

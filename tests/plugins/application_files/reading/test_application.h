@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/element/former_name.h"
+#include "core/element/file_notes.h"
 #include "core/element/runtime.h"
 #include "core/module/module.h"
 #include "core/port/input.h"

@@ -1,7 +1,5 @@
 // The old file or the new one, whole, whatever happens.
 
-#include "core/base/replace_file.h"
-
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -17,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/base/files.h"
 #include "tests/plugins/application_files/saving/saving_workshop.h"
 #include "tests/support/wait_until.h"
 

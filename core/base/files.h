@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/result.h"
 
@@ -20,5 +22,9 @@ namespace runnel {
 ///
 /// Threads: one at a time for one file. Errors: the copy cannot be made; the file is as it was.
 [[nodiscard]] Result<void> KeepBackup(const std::filesystem::path& file);
+
+/// The names of what is in `folder`, sorted, "." and ".." left out; none if it is not there or cannot be
+/// read. Throws std::bad_alloc only. Threads: any.
+[[nodiscard]] std::vector<std::string> NamesInFolder(const std::filesystem::path& folder);
 
 }  // namespace runnel

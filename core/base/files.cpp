@@ -1,20 +1,22 @@
-#include "core/base/replace_file.h"
+#include "core/base/files.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <system_error>
 #include <utility>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/base/file_descriptor.h"
-#include "core/base/folder_names.h"
 
 namespace runnel {
 
@@ -144,6 +146,20 @@ Result<void> KeepBackup(const fs::path& file) {
   if (!error) return {};
   return Error{.message = "what is in it cannot be kept as " + backup.filename().string() + ": " + error.message(),
                .position = {file.string()}};
+}
+
+// Not by std::filesystem::directory_iterator, which ends the process in GCC 12 when there is no memory for
+// a path, and which throws at an entry that cannot be read.
+std::vector<std::string> NamesInFolder(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  const std::unique_ptr<DIR, int (*)(DIR*)> listing(opendir(folder.empty() ? "." : folder.c_str()), closedir);
+  if (!listing) return names;
+  while (const dirent* const entry = readdir(listing.get())) {
+    std::string name = entry->d_name;
+    if (name != "." && name != "..") names.push_back(std::move(name));
+  }
+  std::ranges::sort(names);  // the order of a directory is nobody's
+  return names;
 }
 
 }  // namespace runnel

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <utility>
+
 #include "core/base/error.h"
 #include "core/element/annotation.h"
 #include "core/element/framework_element.h"
@@ -20,5 +23,16 @@ struct SourcePlace final : Annotation {
   }
   return {};
 }
+
+/// How an element was called before. Files may still use it.
+struct FormerName final : Annotation {
+  explicit FormerName(std::string text) : name(std::move(text)) {}
+  const std::string name;
+};
+
+/// Kept with elements that no tag of their own stands for: whoever saves the application passes them
+/// by, with all that is below them. What they hold is either made again by other tags, or no part of
+/// the application.
+struct NotSaved final : Annotation {};
 
 }  // namespace runnel
