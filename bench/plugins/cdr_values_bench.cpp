@@ -6,7 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include "modules/types/image.h"
-#include "modules/types/range_scan.h"
+#include "modules/types/measurements.h"
 #include "plugins/cdr_values/cdr_values.h"
 
 namespace runnel {

@@ -14,7 +14,7 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/port/cycle.h"
 #include "core/port/output.h"
-#include "modules/types/range_scan.h"
+#include "modules/types/measurements.h"
 #include "plugins/recording/recorder.h"
 
 namespace runnel {

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "core/module/module.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
-#include "modules/types/hit_and_leave_points.h"
 #include "modules/types/planner_status.h"
 #include "modules/types/pose.h"
 #include "plugins/behaviours/meta_signal.h"
@@ -34,9 +34,63 @@ class PlannerStatusTeller final : public Module {
 
  private:
   static constexpr std::size_t kMostPoints = 256;
-  Result<void> Prepare() override;
-  void Note(bool is_round, Point2 place);
-  void Update() override;
+
+  Result<void> Prepare() override {
+    const auto reserve = [](HitAndLeavePoints& each) {
+      each.hits.reserve(kMostPoints);
+      each.leaves.reserve(kMostPoints);
+    };
+    reserve(points_);
+    points.PrepareBuffers(reserve);
+    return {};
+  }
+
+  // Within what the list has reserved.
+  static void Append(std::vector<Point2>& list, Point2 point) {
+    if (list.size() == list.capacity()) list.erase(list.begin());
+    list.push_back(point);
+  }
+
+  void Note(bool is_round, Point2 place) {
+    if (is_round == (told_.mode == PlannerMode::kFollowingBoundary)) return;
+    if (is_round) {
+      ++told_.hits;
+      told_.hit_point = place;
+      Append(points_.hits, place);
+    } else {
+      ++told_.leaves;
+      told_.leave_point = place;
+      Append(points_.leaves, place);
+    }
+    auto loan = points.Loan();
+    if (!loan) return;
+    *loan = points_;  // within what its lists have reserved
+    points.Publish(std::move(loan));
+  }
+
+  void Update() override {
+    const auto here = pose_timeout.Read(pose, now());
+    const auto there = goal.Read();
+    const auto rating = content_timeout.Read(content, now());
+    const auto round = detour_timeout.Read(detour, now());
+    if (!here || !there || !rating || (detour.is_bound() && !round)) return;
+    const Point2 place = Position(*here);
+    if (last_goal_ != std::optional(*there)) {
+      told_ = {};
+      points_.hits.clear();
+      points_.leaves.clear();
+      last_goal_ = *there;
+      last_place_.reset();
+    }
+    if (const auto before = std::exchange(last_place_, place)) told_.path_length += Distance(*before, place);
+    told_.distance_to_goal = Distance(place, *there);
+    const bool is_round = round && round->value() > 0.0;
+    Note(is_round, place);
+    told_.mode = is_round                 ? PlannerMode::kFollowingBoundary
+                 : rating->value() == 0.0 ? PlannerMode::kReached
+                                          : PlannerMode::kMotionToGoal;
+    status.Publish(told_);
+  }
 
   PlannerStatus told_;
   std::optional<Point2> last_place_;

@@ -3,7 +3,7 @@
 #include "core/module/module.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
-#include "modules/types/contact.h"
+#include "modules/types/measurements.h"
 #include "modules/types/pose.h"
 #include "plugins/parameters/input_timeout.h"
 #include "plugins/parameters/parameter.h"

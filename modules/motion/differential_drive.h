@@ -9,7 +9,6 @@
 #include "core/port/output.h"
 #include "modules/motion/algorithm/differential_drive.h"
 #include "modules/types/pose.h"
-#include "modules/types/wheel_speeds.h"
 #include "plugins/parameters/input_timeout.h"
 #include "plugins/parameters/parameter.h"
 

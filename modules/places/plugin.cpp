@@ -5,11 +5,13 @@
 #include <vector>
 
 #include "core/base/nearest_name.h"
+#include "core/base/result.h"
 #include "core/module/module.h"
 #include "core/plugin/plugin_entry.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
-#include "modules/places/place.h"
+#include "core/types/type_of.h"
+#include "modules/types/pose.h"
 #include "plugins/blackboards/blackboard.h"
 #include "plugins/blackboards/blackboard_writer.h"
 #include "plugins/parameters/parameter.h"
@@ -17,6 +19,33 @@
 #include "plugins/services/service.h"
 
 namespace runnel::places {
+
+/// Where somebody has said that there is something: "dock".
+struct Place {
+  std::string name;
+  Pose2 pose;
+};
+
+inline void Describe(TypeBuilder<Place>& type) { type.Name("Place").Fields<&Place::name, &Place::pose>(); }
+
+/// A place that is noted, or noted anew: what changes a list of places.
+struct NotedPlace {
+  std::string name;
+  Pose2 pose;
+};
+
+inline void Describe(TypeBuilder<NotedPlace>& type) {
+  type.Name("NotedPlace").Fields<&NotedPlace::name, &NotedPlace::pose>();
+}
+
+/// Errors: a place without a name.
+inline Result<void> Apply(std::vector<Place>& places, const NotedPlace& noted) {
+  if (noted.name.empty()) return Error{.message = "a place needs a name"};
+  auto found = std::ranges::find(places, noted.name, &Place::name);
+  if (found == places.end()) found = places.insert(found, Place{noted.name, {}});
+  found->pose = noted.pose;
+  return {};
+}
 
 /// Remembers places, on a blackboard that others read and write to, too. All of its services are served in its cycle, and
 /// so share its members with it.

@@ -9,7 +9,6 @@
 #include "modules/planning/algorithm/bug_variants.h"
 #include "modules/planning/bug_descriptions.h"
 #include "modules/types/drawing.h"
-#include "modules/types/hit_and_leave_points.h"
 #include "modules/types/planner_status.h"
 #include "modules/types/pose.h"
 #include "modules/types/surroundings.h"

@@ -4,7 +4,7 @@
 #include "core/port/input.h"
 #include "core/port/output.h"
 #include "modules/sensors/algorithm/median_filter.h"
-#include "modules/types/range_scan.h"
+#include "modules/types/measurements.h"
 #include "plugins/parameters/parameter.h"
 
 namespace runnel {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/types/builtin_types.h"
 #include "core/types/type_of.h"
 #include "modules/types/algorithm/planner_status.h"
 #include "modules/types/pose.h"
@@ -22,6 +23,12 @@ inline void Describe(TypeBuilder<PlannerStatus>& type) {
       .Fields<&PlannerStatus::mode, &PlannerStatus::unreachability, &PlannerStatus::hits, &PlannerStatus::leaves>()
       .Fields<&PlannerStatus::distance_to_goal, &PlannerStatus::path_length>({.unit = "m"})
       .Fields<&PlannerStatus::hit_point, &PlannerStatus::leave_point>();
+}
+
+inline void Describe(TypeBuilder<HitAndLeavePoints>& type) {
+  type.Name("HitAndLeavePoints")
+      .SemanticTag("hit_and_leave_points")
+      .Fields<&HitAndLeavePoints::hits, &HitAndLeavePoints::leaves>();
 }
 
 }  // namespace runnel

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/types/builtin_types.h"
 #include "core/types/type_of.h"
 #include "modules/types/algorithm/pose.h"
 
@@ -21,6 +22,14 @@ inline void Describe(TypeBuilder<Twist2>& type) {
       .SemanticTag("twist")
       .Field("forward", &Twist2::forward, {.unit = "m/s"})
       .Field("turn", &Twist2::turn, {.unit = "rad/s"});
+}
+
+inline void Describe(TypeBuilder<WheelSpeeds>& type) {
+  type.Name("WheelSpeeds").Fields<&WheelSpeeds::left, &WheelSpeeds::right>({.unit = "rad/s"});
+}
+
+inline void Describe(TypeBuilder<Path2>& type) {
+  type.Name("Path2").SemanticTag("path").Field("points", &Path2::points, {.unit = "m"});
 }
 
 }  // namespace runnel

@@ -6,11 +6,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "modules/types/algorithm/infrared_ranges.h"
+#include "modules/types/algorithm/measurements.h"
 #include "modules/types/algorithm/pose.h"
-#include "modules/types/algorithm/range_scan.h"
 #include "modules/types/algorithm/surroundings.h"
-#include "modules/types/algorithm/wheel_speeds.h"
 
 namespace runnel::test {
 

@@ -1,10 +1,8 @@
 #pragma once
 
 #include "modules/adaptors/algorithm/local_map.h"
-#include "modules/types/algorithm/contact.h"
-#include "modules/types/algorithm/infrared_ranges.h"
+#include "modules/types/algorithm/measurements.h"
 #include "modules/types/algorithm/pose.h"
-#include "modules/types/algorithm/range_scan.h"
 #include "modules/types/algorithm/surroundings.h"
 
 namespace runnel {

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "modules/types/algorithm/point.h"
 #include "modules/types/algorithm/pose.h"
 #include "modules/types/algorithm/surroundings.h"
 

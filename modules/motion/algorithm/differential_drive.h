@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "modules/types/algorithm/pose.h"
-#include "modules/types/algorithm/wheel_speeds.h"
 
 namespace runnel {
 

@@ -11,7 +11,6 @@
 #include "modules/planning/algorithm/lap.h"
 #include "modules/planning/algorithm/wall_follower.h"
 #include "modules/types/algorithm/planner_status.h"
-#include "modules/types/algorithm/point.h"
 #include "modules/types/algorithm/pose.h"
 #include "modules/types/algorithm/surroundings.h"
 

@@ -2,11 +2,9 @@
 
 #include <memory>
 
-#include "modules/simulation/algorithm/robot_options.h"
 #include "modules/simulation/algorithm/world.h"
-#include "modules/types/algorithm/contact.h"
+#include "modules/types/algorithm/measurements.h"
 #include "modules/types/algorithm/pose.h"
-#include "modules/types/algorithm/wheel_speeds.h"
 
 namespace runnel {
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "modules/simulation/algorithm/path_record.h"
-#include "modules/simulation/algorithm/robot_options.h"
 #include "modules/simulation/algorithm/world.h"
 #include "modules/types/algorithm/pose.h"
 

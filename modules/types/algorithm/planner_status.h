@@ -1,8 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
-#include "modules/types/algorithm/point.h"
+#include "modules/types/algorithm/pose.h"
 
 namespace runnel {
 
@@ -36,6 +37,16 @@ struct PlannerStatus {
   Point2 leave_point = {};        ///< m, world; the last one, if leaves > 0
 
   friend constexpr bool operator==(const PlannerStatus&, const PlannerStatus&) = default;
+};
+
+/// Where a planner of the Bug family met obstacles and where it left them, in order, since its task
+/// began; m, world. hits[i] belongs to leaves[i]; while the robot is at an obstacle there is one
+/// hit more.
+struct HitAndLeavePoints {
+  std::vector<Point2> hits;
+  std::vector<Point2> leaves;
+
+  friend bool operator==(const HitAndLeavePoints&, const HitAndLeavePoints&) = default;
 };
 
 }  // namespace runnel

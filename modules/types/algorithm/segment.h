@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "modules/types/algorithm/point.h"
+#include "modules/types/algorithm/pose.h"
 
 namespace runnel {
 

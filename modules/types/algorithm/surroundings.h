@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "modules/types/algorithm/angle.h"
-#include "modules/types/algorithm/point.h"
+#include "modules/types/algorithm/pose.h"
 
 namespace runnel {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "modules/types/algorithm/point.h"
+#include "modules/types/algorithm/pose.h"
 
 namespace runnel {
 

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "modules/types/algorithm/point.h"
 #include "modules/types/algorithm/pose.h"
 
 namespace runnel {

@@ -17,7 +17,6 @@
 #include "core/port/port_stop.h"
 #include "core/types/text_format.h"
 #include "modules/types/pose.h"
-#include "modules/types/wheel_speeds.h"
 #include "plugins/application_files/application_builder.h"
 #include "plugins/application_tags/application_tags.h"
 #include "plugins/application_tags/run_description.h"

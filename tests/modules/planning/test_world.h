@@ -6,10 +6,8 @@
 #include <vector>
 
 #include "modules/types/algorithm/angle.h"
-#include "modules/types/algorithm/contact.h"
-#include "modules/types/algorithm/infrared_ranges.h"
+#include "modules/types/algorithm/measurements.h"
 #include "modules/types/algorithm/pose.h"
-#include "modules/types/algorithm/range_scan.h"
 #include "modules/types/algorithm/segment.h"
 
 namespace runnel::testing_world {

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "modules/simulation/algorithm/robot_options.h"
+#include "modules/simulation/algorithm/world.h"
 #include "modules/simulation/algorithm/world_geometry.h"
 #include "modules/simulation/world_file/world_file.h"
 

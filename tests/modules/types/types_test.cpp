@@ -2,14 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "modules/types/contact.h"
-#include "modules/types/hit_and_leave_points.h"
 #include "modules/types/image.h"
-#include "modules/types/infrared_ranges.h"
-#include "modules/types/path.h"
+#include "modules/types/measurements.h"
+#include "modules/types/planner_status.h"
 #include "modules/types/pose.h"
-#include "modules/types/range_scan.h"
-#include "modules/types/wheel_speeds.h"
 #include "modules/types/world_map.h"
 
 namespace runnel {

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include "modules/types/pose.h"
-#include "modules/types/wheel_speeds.h"
 #include "tests/plugins/testing/adding_module.h"
 
 namespace runnel::test {

@@ -8,8 +8,8 @@
 
 #include "core/types/text_format.h"
 #include "modules/types/image.h"
-#include "modules/types/path.h"
-#include "modules/types/range_scan.h"
+#include "modules/types/measurements.h"
+#include "modules/types/pose.h"
 #include "modules/types/world_map.h"
 #include "plugins/ros_messages/message_codec.h"
 #include "plugins/ros_messages/message_library.h"

@@ -8,7 +8,7 @@
 
 #include <gmock/gmock.h>
 
-#include "modules/types/range_scan.h"
+#include "modules/types/measurements.h"
 #include "plugins/ros_messages/message_codec.h"
 #include "plugins/ros_messages/message_library.h"
 #include "tests/plugins/ros_messages/random_message.h"
