@@ -6,8 +6,9 @@
 #include <charconv>
 #include <csignal>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <memory>
-#include <string>
 #include <system_error>
 #include <utility>
 
@@ -160,6 +161,14 @@ std::vector<std::string> NamesInFolder(const std::filesystem::path& folder) {
   }
   std::ranges::sort(names);  // the order of a directory is nobody's
   return names;
+}
+
+std::optional<std::string> TextOfFile(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return std::nullopt;
+  return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
 }  // namespace runnel

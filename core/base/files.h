@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,9 @@ namespace runnel {
 ///
 /// Threads: one at a time for one file. Errors: the copy cannot be made; the file is as it was.
 [[nodiscard]] Result<void> KeepBackup(const std::filesystem::path& file);
+
+/// All that is in a file; nullopt if it is none, or cannot be read. Threads: any.
+[[nodiscard]] std::optional<std::string> TextOfFile(const std::filesystem::path& file);
 
 /// The names of what is in `folder`, sorted, "." and ".." left out; none if it is not there or cannot be
 /// read. Throws std::bad_alloc only. Threads: any.

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/exception_text.h"
 #include "core/element/configurable.h"
 #include "core/element/framework_element.h"
 

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "core/base/nearest_name.h"
-#include "core/element/element_listener.h"
 #include "core/element/element_path.h"
 #include "core/element/runtime.h"
 #include "core/log/internal/log_dispatcher.h"

@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "core/base/retry.h"
 #include "core/element/element_path.h"
 #include "core/paths/distant_ports.h"

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/element/annotation.h"
-#include "core/element/element_listener.h"
 #include "core/element/runtime.h"
 #include "core/paths/path_search.h"
 #include "core/port/port.h"

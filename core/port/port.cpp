@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "core/base/retry.h"
 #include "core/channel/channel_base.h"
 #include "core/conversion/conversion.h"

@@ -1,10 +1,8 @@
 // Ports that drive, and what stops them (Port::SetDriving(), Port::Block()), also in the place of another one.
 #include "core/port/port_stop.h"
 
-#include <algorithm>
 #include <chrono>
 #include <mutex>
-#include <utility>
 
 #include "core/base/retry.h"
 #include "core/conversion/number_conversion.h"

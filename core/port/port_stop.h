@@ -9,7 +9,7 @@
 
 #include "core/base/clock.h"
 #include "core/channel/value_times.h"
-#include "core/element/stop_signal.h"
+#include "core/element/robot_stop.h"
 #include "core/port/driving_kind.h"
 #include "core/types/any_value.h"
 

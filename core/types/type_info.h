@@ -15,7 +15,6 @@
 
 namespace runnel {
 
-class TypeInfo;
 struct FieldOptions;
 
 enum class TypeKind {

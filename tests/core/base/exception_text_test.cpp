@@ -1,11 +1,10 @@
-#include "core/base/exception_text.h"
-
 #include <new>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
 
 #include "core/base/check.h"
+#include "core/base/error.h"
 
 namespace runnel {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 
 namespace runnel::test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "tests/core/lockfree/pop_all.h"
 #include "tests/support/threads.h"
 #include "tests/support/wait_until.h"

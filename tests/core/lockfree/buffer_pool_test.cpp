@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/lockfree/buffer_lease.h"
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "tests/core/lockfree/counted.h"
 #include "tests/support/threads.h"
 

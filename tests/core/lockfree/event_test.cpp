@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/testing/system_call_probe.h"
+#include "plugins/testing/guards.h"
 #include "tests/core/lockfree/notified_by_many.h"
 #include "tests/support/threads.h"
 #include "tests/support/yielding_atomic.h"

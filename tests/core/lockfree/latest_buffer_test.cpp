@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/check.h"
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "tests/core/lockfree/counted.h"
 #include "tests/support/threads.h"
 #include "tests/support/wait_until.h"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "tests/support/threads.h"
 #include "tests/support/yielding_atomic.h"
 

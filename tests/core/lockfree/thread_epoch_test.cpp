@@ -7,9 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/check.h"
-#include "plugins/testing/allocation_guard.h"
 #include "plugins/testing/fault_injection.h"
-#include "plugins/testing/lock_probe.h"
+#include "plugins/testing/guards.h"
 #include "tests/support/threads.h"
 #include "tests/support/wait_until.h"
 #include "tests/support/yielding_atomic.h"

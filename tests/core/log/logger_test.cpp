@@ -4,9 +4,7 @@
 #include <thread>
 
 #include "core/module/module.h"
-#include "plugins/testing/allocation_guard.h"
-#include "plugins/testing/lock_probe.h"
-#include "plugins/testing/system_call_probe.h"
+#include "plugins/testing/guards.h"
 #include "tests/core/log/logger_fixture.h"
 
 namespace runnel::test {

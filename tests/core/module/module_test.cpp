@@ -1,8 +1,7 @@
 #include "core/module/module.h"
 
 #include "core/module/group.h"
-#include "plugins/testing/allocation_guard.h"
-#include "plugins/testing/lock_probe.h"
+#include "plugins/testing/guards.h"
 #include "tests/core/module/module_fixture.h"
 
 namespace runnel::test {

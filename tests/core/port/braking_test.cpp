@@ -4,8 +4,7 @@
 #include <limits>
 
 #include "core/port/cycle.h"
-#include "plugins/testing/allocation_guard.h"
-#include "plugins/testing/lock_probe.h"
+#include "plugins/testing/guards.h"
 #include "tests/core/port/stop_fixture.h"
 
 namespace runnel::test {

@@ -8,7 +8,7 @@
 #include "core/port/connection_rules.h"
 #include "core/port/probe_port.h"
 #include "core/types/builtin_types.h"
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "tests/core/port/port_fixture.h"
 
 namespace runnel::test {

@@ -5,9 +5,7 @@
 #include <thread>
 
 #include "core/base/check.h"
-#include "plugins/testing/allocation_guard.h"
-#include "plugins/testing/lock_probe.h"
-#include "plugins/testing/system_call_probe.h"
+#include "plugins/testing/guards.h"
 #include "tests/core/port/pull_fixture.h"
 
 namespace runnel::test {

@@ -1,9 +1,7 @@
 #include <array>
 #include <utility>
 
-#include "plugins/testing/allocation_guard.h"
-#include "plugins/testing/lock_probe.h"
-#include "plugins/testing/system_call_probe.h"
+#include "plugins/testing/guards.h"
 #include "tests/core/port/port_fixture.h"
 
 namespace runnel::test {

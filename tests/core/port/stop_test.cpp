@@ -2,8 +2,7 @@
 #include <thread>
 
 #include "core/port/cycle.h"
-#include "plugins/testing/allocation_guard.h"
-#include "plugins/testing/lock_probe.h"
+#include "plugins/testing/guards.h"
 #include "tests/core/port/stop_fixture.h"
 
 namespace runnel::test {

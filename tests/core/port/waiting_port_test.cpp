@@ -8,9 +8,7 @@
 
 #include "core/base/check.h"
 #include "plugins/real_time_check/sanitizer.h"
-#include "plugins/testing/allocation_guard.h"
-#include "plugins/testing/lock_probe.h"
-#include "plugins/testing/system_call_probe.h"
+#include "plugins/testing/guards.h"
 #include "tests/core/port/port_fixture.h"
 #include "tests/support/threads.h"
 
