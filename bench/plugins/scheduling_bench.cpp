@@ -18,7 +18,7 @@
 #include "core/port/input.h"
 #include "core/port/output.h"
 #include "plugins/scheduling/scheduler.h"
-#include "plugins/timing/cycle_tracer.h"
+#include "plugins/timing/trace_track.h"
 
 namespace runnel {
 

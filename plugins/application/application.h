@@ -18,7 +18,6 @@
 #include "core/port/output.h"
 #include "plugins/application/application_description.h"
 #include "plugins/parameters/parameter.h"
-#include "plugins/parameters/static_parameter.h"
 #include "plugins/structure/structure_editor.h"
 
 namespace runnel {

@@ -8,7 +8,6 @@
 #include <set>
 #include <utility>
 
-#include "core/base/exception_text.h"
 #include "core/element/file_notes.h"
 #include "core/element/runtime.h"
 #include "core/module/executable.h"

@@ -11,9 +11,9 @@
 #include "core/element/runtime.h"
 #include "core/plugin/plugin_manager.h"
 #include "plugins/application/application_checks.h"
+#include "plugins/application/application_extension.h"
 #include "plugins/application/application_options.h"
 #include "plugins/application/extension_description.h"
-#include "plugins/application/extension_registry.h"
 #include "plugins/application_files/application_builder.h"
 #include "plugins/parameters/configuration.h"
 

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "core/base/exception_text.h"
 #include "core/element/file_notes.h"
 #include "core/types/duration_text.h"
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/element/element_listener.h"
 #include "core/element/runtime.h"
 #include "core/log/log_sink.h"
 #include "core/module/run_monitor.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/base/erase_where.h"
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "core/base/retry.h"
 #include "core/element/file_notes.h"
 #include "plugins/application/internal/application_parts.h"

@@ -15,7 +15,7 @@
 #include "plugins/parameters/configuration_saver.h"
 #include "plugins/parameters/file_path.h"
 #include "plugins/parameters/value_to_save.h"
-#include "plugins/structure/name_in_file.h"
+#include "plugins/structure/renamed_text.h"
 
 namespace runnel {
 

@@ -15,7 +15,6 @@
 #include "plugins/behaviours/meta_signal.h"
 #include "plugins/parameters/input_timeout.h"
 #include "plugins/parameters/parameter.h"
-#include "plugins/parameters/static_parameter.h"
 
 namespace runnel {
 

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "plugins/cdr_values/cdr_reader.h"
-#include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/cdr_values/cdr_stream.h"
 
 namespace runnel {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/types/type_info.h"
-#include "plugins/cdr_values/cdr_reader.h"
+#include "plugins/cdr_values/cdr_stream.h"
 
 namespace runnel {
 

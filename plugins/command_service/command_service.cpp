@@ -5,7 +5,6 @@
 #include <type_traits>
 #include <variant>
 
-#include "core/element/runtime.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/driving_ports.h"
 #include "core/types/duration_text.h"

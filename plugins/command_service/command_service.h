@@ -12,7 +12,6 @@
 
 #include "core/base/clock.h"
 #include "core/base/lookout.h"
-#include "core/element/element_listener.h"
 #include "core/element/robot_stop.h"
 #include "core/element/runtime.h"
 #include "core/plugin/module_registry.h"

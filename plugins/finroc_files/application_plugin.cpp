@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "core/plugin/plugin_entry.h"
-#include "plugins/application/extension_registry.h"
+#include "plugins/application/application_extension.h"
 #include "plugins/finroc_files/finroc_application.h"
 
 namespace runnel {

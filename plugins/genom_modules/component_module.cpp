@@ -4,7 +4,7 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "core/base/nearest_name.h"
 #include "core/element/runtime.h"
 #include "core/module/executable.h"

@@ -18,7 +18,7 @@
 #include "plugins/genom_execution/component_table.h"
 #include "plugins/genom_modules/component_service.h"
 #include "plugins/genom_modules/component_state.h"
-#include "plugins/parameters/static_parameter.h"
+#include "plugins/parameters/parameter.h"
 
 namespace runnel {
 class ThreadContainer;

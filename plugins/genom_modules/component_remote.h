@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string_view>
 
-#include "plugins/genom_execution/codel_context.h"
+#include "plugins/genom_execution/component_table.h"
 #include "plugins/services/client.h"
 
 namespace runnel::genom_modules {

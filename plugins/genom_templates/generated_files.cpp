@@ -7,7 +7,6 @@
 #include "core/base/files.h"
 #include "core/base/program_output.h"
 #include "core/base/temporary_folder.h"
-#include "plugins/genom_text/file_text.h"
 
 namespace runnel::genom {
 
@@ -32,7 +31,7 @@ Plan PlanFor(const fs::path& folder, const GeneratedFile& file, WhatIsThere what
         {.message = "a template cannot make '" + file.path + "'", .hint = "its files are within one folder"});
     return plan;
   }
-  const auto before = TextOf(folder / file.path);
+  const auto before = TextOfFile(folder / file.path);
   if (!before) return plan;
   if (*before == file.text) {
     plan.written.what = What::kSame;
@@ -40,7 +39,7 @@ Plan PlanFor(const fs::path& folder, const GeneratedFile& file, WhatIsThere what
   }
   plan.written.what = What::kReplaced;
   if (!file.is_kept || what_is_there == WhatIsThere::kIsOverwritten) return plan;
-  const auto base = TextOf(folder / kKeptFolder / file.path);
+  const auto base = TextOfFile(folder / kKeptFolder / file.path);
   if (!base && what_is_there == WhatIsThere::kIsAdopted) {
     plan.written.what = What::kSame;
     return plan;
@@ -89,7 +88,7 @@ std::vector<WrittenFile> WriteFiles(const fs::path& folder, const std::vector<Ge
     const bool is_same = plans[i].written.what == What::kSame;
     if (!is_same && !WriteOne(folder / files[i].path, plans[i].text, diagnostics)) break;
     // Last, so that a file which could not be written is merged with the old one again.
-    if (files[i].is_kept && TextOf(folder / kKeptFolder / files[i].path) != files[i].text &&
+    if (files[i].is_kept && TextOfFile(folder / kKeptFolder / files[i].path) != files[i].text &&
         !WriteOne(folder / kKeptFolder / files[i].path, files[i].text, diagnostics)) {
       break;
     }

@@ -8,7 +8,7 @@
 #include <lua.hpp>
 #include <nlohmann/json.hpp>
 
-#include "plugins/genom_text/file_text.h"
+#include "core/base/files.h"
 
 namespace runnel::genom {
 
@@ -261,10 +261,10 @@ class Run {
   bool Read(const std::string& name, bool is_text) {
     // Its own files, then those that all templates share.
     fs::path file = folder_ / name;
-    auto found = TextOf(file);
+    auto found = TextOfFile(file);
     if (!found) {
       file = folder_.parent_path() / "library" / name;
-      found = TextOf(file);
+      found = TextOfFile(file);
     }
     if (!found) {
       answer_ = "there is no file '" + name + "' in the template";

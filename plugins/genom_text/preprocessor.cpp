@@ -3,7 +3,7 @@
 #include <charconv>
 #include <filesystem>
 
-#include "plugins/genom_text/file_text.h"
+#include "core/base/files.h"
 
 namespace runnel::genom {
 
@@ -22,7 +22,7 @@ Preprocessor::Preprocessor(const PreprocessorOptions& options, Problems& problem
 }
 
 void Preprocessor::Read(const std::string& file) {
-  const auto text = TextOf(file);
+  const auto text = TextOfFile(file);
   if (!text) {
     GiveUp({problems_.FileIndex(file), 0, 0}, "this file cannot be read");
     return;
@@ -267,7 +267,7 @@ void Preprocessor::Include(Place place) {
   }
   for (const std::string& folder : folders) {
     const std::filesystem::path file = std::filesystem::path(folder) / name;
-    if (const auto text = TextOf(file)) {
+    if (const auto text = TextOfFile(file)) {
       ReadToEnd(file.parent_path().string(), *text, file.string());
       return;
     }

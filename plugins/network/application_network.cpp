@@ -12,7 +12,7 @@
 #include "core/paths/late_connections.h"
 #include "core/plugin/plugin_entry.h"
 #include "plugins/application/application.h"
-#include "plugins/application/extension_registry.h"
+#include "plugins/application/application_extension.h"
 #include "plugins/command_service/command_service.h"
 #include "plugins/command_service/extension_texts.h"
 #include "plugins/control/element_listing.h"
@@ -20,7 +20,7 @@
 #include "plugins/network/application_health.h"
 #include "plugins/network/network_engines.h"
 #include "plugins/network/network_link.h"
-#include "plugins/network/xml_network_tags.h"
+#include "plugins/network/xml_network_words.h"
 #include "plugins/wire_shared_memory/shared_memory_wire.h"
 
 namespace runnel {

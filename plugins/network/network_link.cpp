@@ -5,10 +5,9 @@
 #include <mutex>
 #include <utility>
 
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "core/element/element_path.h"
 #include "core/element/file_notes.h"
-#include "core/element/runtime.h"
 #include "plugins/network/network_ports.h"
 #include "plugins/network_discovery/distant_type.h"
 #include "plugins/ros_messages/message_library.h"

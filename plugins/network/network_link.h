@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/clock.h"
-#include "core/element/element_listener.h"
+#include "core/element/runtime.h"
 #include "core/lockfree/wake_event.h"
 #include "plugins/network/network_element.h"
 #include "plugins/network/offered_port.h"

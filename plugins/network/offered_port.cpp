@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/port/driving_ports.h"
 #include "plugins/network_discovery/distant_type.h"

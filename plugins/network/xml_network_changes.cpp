@@ -10,7 +10,7 @@
 #include "plugins/network/offer_list.h"
 #include "plugins/network/xml_network_words.h"
 #include "plugins/ros_messages/names.h"
-#include "plugins/structure/extension_changes.h"
+#include "plugins/structure/change.h"
 
 namespace runnel {
 

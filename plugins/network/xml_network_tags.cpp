@@ -1,4 +1,3 @@
-#include "plugins/network/xml_network_tags.h"
 
 #include <algorithm>
 #include <cstdlib>

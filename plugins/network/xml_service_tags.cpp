@@ -6,7 +6,6 @@
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
 #include "plugins/network/network_element.h"
-#include "plugins/network/xml_network_tags.h"
 #include "plugins/network/xml_network_words.h"
 #include "plugins/network_discovery/distant_type.h"
 #include "plugins/ros_messages/message_library.h"

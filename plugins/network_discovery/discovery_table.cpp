@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/base/characters.h"
-#include "plugins/cdr_values/cdr_reader.h"
+#include "plugins/cdr_values/cdr_stream.h"
 #include "plugins/network_discovery/value_form.h"
 
 namespace runnel {

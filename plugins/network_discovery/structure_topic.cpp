@@ -8,8 +8,7 @@
 #include "core/base/characters.h"
 #include "core/base/nearest_name.h"
 #include "core/element/element_path.h"
-#include "plugins/cdr_values/cdr_reader.h"
-#include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/cdr_values/cdr_stream.h"
 #include "plugins/ros_messages/names.h"
 
 namespace runnel {

@@ -6,7 +6,6 @@
 #include "core/plugin/plugin_entry.h"
 #include "core/xml/xml_reading.h"
 #include "plugins/application/application_extension.h"
-#include "plugins/application/extension_registry.h"
 #include "plugins/real_time_check/real_time_watch.h"
 
 namespace runnel {

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/element/element_listener.h"
 #include "core/element/runtime.h"
 #include "core/log/log_sink.h"
 #include "core/port/probe_port.h"

@@ -4,7 +4,7 @@
 #include <exception>
 #include <utility>
 
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "core/types/type_info.h"
 #include "plugins/mcap/mcap_writer.h"
 #include "plugins/recording/recorder.h"

@@ -12,7 +12,6 @@
 #include "core/port/probe_port.h"
 #include "core/types/type_info.h"
 #include "plugins/recording/recording_names.h"
-#include "plugins/structure/extension_changes.h"
 #include "plugins/values/foxglove_channel.h"
 
 namespace runnel {

@@ -9,7 +9,6 @@
 #include "core/types/type_of.h"
 #include "plugins/cdr_values/cdr_values.h"
 #include "plugins/ros_messages/internal/binding.h"
-#include "plugins/ros_messages/internal/mapping_rules.h"
 #include "plugins/ros_messages/internal/message_leaf.h"
 #include "plugins/ros_messages/internal/message_number.h"
 #include "plugins/ros_messages/message_library.h"

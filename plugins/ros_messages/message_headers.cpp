@@ -5,7 +5,7 @@
 #include "core/base/identifier.h"
 #include "core/types/type_of.h"
 #include "plugins/ros_messages/internal/message_leaf.h"
-#include "plugins/ros_messages/message_export.h"
+#include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/names.h"
 
 namespace runnel {

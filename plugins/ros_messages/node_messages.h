@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "core/base/clock.h"
+#include "core/log/log_sink.h"
 #include "core/types/type_of.h"
+#include "plugins/ros_messages/parameter_messages.h"
 
 namespace runnel {
-
-struct LogMessage;
 
 /// Messages about an application: what it says, and how it is. Each is a structure with the fields of
 /// the message of ROS 2, so that MessageCodec writes and reads it `as` that message; stamps count from 1970, or from the
@@ -25,7 +25,6 @@ struct RosLog {
   std::string function;
   std::uint32_t line = 0;
 };
-[[nodiscard]] RosLog ToRosLog(const LogMessage& said, Time stamp);
 
 struct RosHeader {
   Time stamp{};
@@ -75,6 +74,14 @@ inline void Describe(TypeBuilder<RosDiagnosticStatus>& type) {
 }
 inline void Describe(TypeBuilder<RosDiagnostics>& type) {
   type.Name("ros.Diagnostics").Fields<&RosDiagnostics::header, &RosDiagnostics::status>();
+}
+
+[[nodiscard]] inline RosLog ToRosLog(const LogMessage& said, Time stamp) {
+  RosLog log{
+      .stamp = stamp, .name = RosParameterName("", said.path), .msg = said.TextWithCount(), .file = {}, .function = {}};
+  // 10 for debug, 20 for info, and so on.
+  log.level = static_cast<std::uint8_t>(said.level == LogLevel::kOff ? 0 : 10 * (static_cast<int>(said.level) + 1));
+  return log;
 }
 
 }  // namespace runnel

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "core/base/nearest_name.h"
 #include "core/element/configurable.h"
 #include "core/element/runtime.h"

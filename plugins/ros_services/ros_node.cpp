@@ -7,9 +7,8 @@
 
 #include "core/log/logger.h"
 #include "core/types/type_of.h"
-#include "plugins/cdr_values/cdr_reader.h"
+#include "plugins/cdr_values/cdr_stream.h"
 #include "plugins/cdr_values/cdr_values.h"
-#include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/network_discovery/discovery_table.h"
 #include "plugins/network_discovery/value_form.h"
 

@@ -7,8 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/erase_where.h"
-#include "plugins/cdr_values/cdr_reader.h"
-#include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/cdr_values/cdr_stream.h"
 #include "plugins/network_discovery/value_form.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/ros_services/ros_time.h"

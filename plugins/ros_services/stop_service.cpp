@@ -3,8 +3,7 @@
 #include <new>
 #include <utility>
 
-#include "plugins/cdr_values/cdr_reader.h"
-#include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/cdr_values/cdr_stream.h"
 
 namespace runnel {
 

@@ -6,7 +6,7 @@
 
 #include "core/base/characters.h"
 #include "core/base/erase_where.h"
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/lockfree/wake_event.h"
 #include "core/port/cycle.h"

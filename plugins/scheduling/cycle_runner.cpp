@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <exception>
 
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/module/after_cycle.h"
 #include "plugins/timing/latency_chain.h"

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <new>
 
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "core/base/retry.h"
 #include "core/element/element_path.h"
 

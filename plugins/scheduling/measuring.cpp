@@ -5,7 +5,7 @@
 
 #include "core/paths/path_search.h"
 #include "plugins/scheduling/scheduler.h"
-#include "plugins/timing/cycle_tracer.h"
+#include "plugins/timing/trace_track.h"
 
 namespace runnel {
 

@@ -7,7 +7,7 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/port/port.h"
 #include "plugins/scheduling/cycle_runner.h"
-#include "plugins/timing/cycle_tracer.h"
+#include "plugins/timing/trace_track.h"
 
 namespace runnel {
 

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "core/base/ordered_mutex.h"
-#include "core/element/element_listener.h"
 #include "core/element/runtime.h"
 #include "plugins/scheduling/backpressure.h"
 #include "plugins/scheduling/cycle_hold.h"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/base/check.h"
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "core/base/retry.h"
 #include "core/module/executable.h"
 #include "plugins/scheduling/real_thread.h"

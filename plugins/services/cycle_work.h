@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "core/channel/subscribers.h"
 #include "core/element/annotation.h"
 #include "core/module/executable.h"

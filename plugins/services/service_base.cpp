@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "core/element/file_notes.h"
 #include "core/element/own_thread.h"
 #include "core/element/runtime.h"

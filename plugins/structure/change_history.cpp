@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/base/characters.h"
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "plugins/structure/change_text.h"
 
 namespace runnel {

@@ -14,7 +14,7 @@
 #include "core/port/stand_in.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
-#include "plugins/structure/extension_changes.h"
+#include "plugins/structure/change.h"
 
 namespace runnel::internal {
 

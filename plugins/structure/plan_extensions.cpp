@@ -5,7 +5,7 @@
 
 #include "core/element/runtime.h"
 #include "core/log/log_level.h"
-#include "plugins/structure/extension_changes.h"
+#include "plugins/structure/change.h"
 #include "plugins/structure/plan.h"
 
 namespace runnel::internal {

@@ -15,7 +15,6 @@
 #include "core/port/proxy_port.h"
 #include "core/types/type_info.h"
 #include "plugins/structure/element_state.h"
-#include "plugins/structure/name_in_file.h"
 #include "plugins/structure/plan.h"
 #include "plugins/structure/renamed_text.h"
 

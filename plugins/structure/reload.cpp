@@ -4,7 +4,7 @@
 #include <mutex>
 #include <optional>
 
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "core/plugin/module_type_name.h"
 
 namespace runnel {

@@ -4,7 +4,6 @@
 
 #include "core/element/element_path.h"
 #include "core/xml/xml_editor.h"
-#include "plugins/structure/name_in_file.h"
 
 namespace runnel {
 

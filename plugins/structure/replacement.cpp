@@ -5,10 +5,9 @@
 #include <set>
 #include <string>
 
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "core/base/nearest_name.h"
 #include "core/element/runtime.h"
-#include "core/module/kept_state.h"
 #include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
 #include "core/port/converted_flow.h"

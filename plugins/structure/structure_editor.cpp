@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/base/check.h"
-#include "core/base/exception_text.h"
 #include "core/base/ordered_mutex.h"
 #include "core/base/retry.h"
 #include "core/element/own_thread.h"

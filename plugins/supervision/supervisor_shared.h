@@ -13,7 +13,7 @@
 
 #include "core/base/lookout.h"
 #include "core/base/ordered_mutex.h"
-#include "plugins/structure/extension_changes.h"
+#include "plugins/structure/change.h"
 #include "plugins/supervision/supervisor.h"
 #include "plugins/supervision/watches.h"
 

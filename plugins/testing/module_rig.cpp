@@ -1,6 +1,6 @@
 #include "plugins/testing/module_rig.h"
 
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "core/log/logger.h"
 #include "core/module/executable.h"
 #include "core/paths/path_search.h"

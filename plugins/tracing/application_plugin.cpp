@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/plugin/plugin_entry.h"
-#include "plugins/application/extension_registry.h"
+#include "plugins/application/application_extension.h"
 #include "plugins/tracing/trace_recorder.h"
 
 namespace runnel {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
 #include "plugins/tracing/internal/trace_writer.h"

@@ -10,9 +10,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/element/element_listener.h"
 #include "core/element/runtime.h"
-#include "plugins/timing/cycle_tracer.h"
+#include "plugins/timing/trace_track.h"
 #include "plugins/tracing/trace_file.h"
 
 namespace runnel {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "plugins/web_server/web_role.h"
+#include "plugins/web_server/web_session.h"
 
 namespace runnel {
 

@@ -75,7 +75,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
        "plugins/genom_modules",
        {"core", "plugins/genom_execution", "plugins/parameters", "plugins/scheduling", "plugins/services"}});
   rules.push_back({"plugins/genom_text", "plugins/genom_text", {"core"}});
-  rules.push_back({"plugins/genom_templates", "plugins/genom_templates", {"core", "plugins/genom_text/file_text.h"}});
+  rules.push_back({"plugins/genom_templates", "plugins/genom_templates", {"core"}});
   rules.push_back({"plugins/genom_description", "plugins/genom_description", {"core", "plugins/genom_text"}});
   rules.push_back({"plugins/blackboards", "plugins/blackboards", {"core", "plugins/services"}});
   rules.push_back({"plugins/foxglove",

@@ -9,7 +9,7 @@
 
 #include "core/base/result.h"
 #include "plugins/values/json_reader.h"
-#include "plugins/web_server/web_role.h"
+#include "plugins/web_server/web_session.h"
 
 namespace runnel::internal {
 

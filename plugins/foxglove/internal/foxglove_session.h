@@ -18,7 +18,6 @@
 #include "plugins/foxglove/internal/directory.h"
 #include "plugins/foxglove/internal/foxglove_shared.h"
 #include "plugins/foxglove/internal/parameter_handler.h"
-#include "plugins/foxglove/internal/send_queue.h"
 #include "plugins/foxglove/internal/server_messages.h"
 #include "plugins/services/callable.h"
 #include "plugins/values/watched_port.h"

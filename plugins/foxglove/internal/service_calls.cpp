@@ -10,7 +10,6 @@
 #include "plugins/foxglove/internal/foxglove_session.h"
 #include "plugins/foxglove/internal/foxglove_shared.h"
 #include "plugins/foxglove/internal/robot_stop_access.h"
-#include "plugins/foxglove/internal/send_queue.h"
 #include "plugins/foxglove/internal/server_messages.h"
 #include "plugins/values/foxglove_channel.h"
 #include "plugins/values/json_reader.h"

@@ -1,8 +1,6 @@
 #include "plugins/inspector/internal/inspection.h"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -20,10 +18,9 @@ std::string Arrangement::FileOf(const std::string& application_file) {
 }
 
 Result<void> Arrangement::Read(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return {};
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  const auto json = JsonPart::Parse(text, 2);
+  const auto text = TextOfFile(file);
+  if (!text) return {};
+  const auto json = JsonPart::Parse(*text, 2);
   if (!json) return json.error().WithContext(file + " cannot be read");
   Entries read;
   for (const auto& [name, value] : json->members()) {

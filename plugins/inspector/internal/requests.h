@@ -9,7 +9,7 @@
 
 #include "plugins/inspector/internal/inspection.h"
 #include "plugins/inspector/internal/viewer_message.h"
-#include "plugins/web_server/web_role.h"
+#include "plugins/web_server/web_session.h"
 
 namespace runnel::internal {
 

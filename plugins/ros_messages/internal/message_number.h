@@ -7,8 +7,7 @@
 
 #include "core/types/leaf_types.h"
 #include "core/types/type_info.h"
-#include "plugins/cdr_values/cdr_reader.h"
-#include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/cdr_values/cdr_stream.h"
 #include "plugins/ros_messages/message_definition.h"
 
 namespace runnel::internal {

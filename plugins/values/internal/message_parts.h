@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <initializer_list>
@@ -99,20 +101,51 @@ struct PlaceAndHeading {
 };
 
 /// Anything with x and y, and perhaps z.
-[[nodiscard]] bool IsPlace(const TypeInfo& type);
+[[nodiscard]] inline bool IsPlace(const TypeInfo& type) { return HasNumbers(type, {"x", "y"}); }
+
 /// A place with a heading.
-[[nodiscard]] bool IsPose(const TypeInfo& type);
+[[nodiscard]] inline bool IsPose(const TypeInfo& type) { return HasNumbers(type, {"x", "y", "heading"}); }
+
 /// Whether a structure has a list of places of this name.
-[[nodiscard]] bool HasPlaces(const TypeInfo& type, std::string_view list);
-[[nodiscard]] Place PlaceOf(const ValueView& value);
-[[nodiscard]] PlaceAndHeading PoseOf(const ValueView& value);
+[[nodiscard]] inline bool HasPlaces(const TypeInfo& type, std::string_view list) {
+  const TypeInfo* const element = ElementsOf(type, list);
+  return element != nullptr && IsPlace(*element);
+}
+
+[[nodiscard]] inline Place PlaceOf(const ValueView& value) {
+  const bool has_height = HasNumbers(value.type(), {"z"});
+  return {value.Field("x").number(), value.Field("y").number(), has_height ? value.Field("z").number() : 0.0};
+}
+
+[[nodiscard]] inline PlaceAndHeading PoseOf(const ValueView& value) {
+  return {PlaceOf(value), value.Field("heading").number()};
+}
 
 /// Times before the clock's start are told as its start: Foxglove knows no others.
-void AppendTime(Time time, std::string& json);
-void AppendVector(const Place& place, std::string& json);
+inline void AppendTime(Time time, std::string& json) {
+  const std::int64_t since_start = std::max<std::int64_t>(0, time.time_since_epoch().count());
+  JsonObject(json).Add("sec", since_start / 1'000'000'000).Add("nsec", since_start % 1'000'000'000);
+}
+
+inline void AppendVector(const Place& place, std::string& json) {
+  JsonObject(json).Add("x", place.x).Add("y", place.y).Add("z", place.z);
+}
+
 /// The turn by `heading` (rad) about the vertical.
-void AppendTurn(double heading, std::string& json);
-void AppendPose(const PlaceAndHeading& pose, std::string& json);
-void AppendColour(const Colour& colour, std::string& json);
+inline void AppendTurn(double heading, std::string& json) {
+  const double half = heading / 2;
+  JsonObject(json).Add("x", 0.0).Add("y", 0.0).Add("z", std::sin(half)).Add("w", std::cos(half));
+}
+
+inline void AppendPose(const PlaceAndHeading& pose, std::string& json) {
+  JsonObject object(json);
+  AppendVector(pose.place, object.Key("position"));
+  AppendTurn(pose.heading, object.Key("orientation"));
+}
+
+inline void AppendColour(const Colour& colour, std::string& json) {
+  JsonObject object(json);
+  object.Add("r", colour.red).Add("g", colour.green).Add("b", colour.blue).Add("a", colour.alpha);
+}
 
 }  // namespace runnel::internal

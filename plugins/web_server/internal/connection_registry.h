@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -12,6 +13,7 @@
 
 #include <boost/asio/io_context.hpp>
 
+#include "core/base/retry.h"
 #include "plugins/web_server/access_rules.h"
 #include "plugins/web_server/web_resource.h"
 #include "plugins/web_server/web_server_options.h"
@@ -99,35 +101,107 @@ class Handler {
 class ConnectionRegistry {
  public:
   ConnectionRegistry(WebServerOptions options, AccessRules rules, const std::vector<WebResource>& resources,
-                     std::vector<WebProtocol> protocols);
-  ~ConnectionRegistry();
+                     std::vector<WebProtocol> protocols)
+      : options_(std::move(options)),
+        rules_(std::move(rules)),
+        resources_(resources),
+        protocols_(std::move(protocols)) {}
+
+  // Beast needs memory where a context ends in which there are WebSockets.
+  ~ConnectionRegistry() {
+    Retry([this] { context_.shutdown(); });
+  }
 
   [[nodiscard]] boost::asio::io_context& context() noexcept { return context_; }
   [[nodiscard]] const WebLimits& limits() const noexcept { return options_.limits; }
   [[nodiscard]] const AccessRules& rules() const noexcept { return rules_; }
-  [[nodiscard]] const WebResource* FindResource(std::string_view path) const;
-  /// By name. `name`, if found, is the server's copy.
-  [[nodiscard]] const WebProtocol* FindProtocol(std::string_view name) const;
-  /// "a, b, c".
-  [[nodiscard]] std::string ProtocolNames() const;
 
-  void Add(const std::shared_ptr<WebConnection>& connection);
-  void Remove(const std::shared_ptr<WebConnection>& connection) noexcept;
+  [[nodiscard]] const WebResource* FindResource(std::string_view path) const {
+    const auto found = std::ranges::find(resources_, path, &WebResource::path);
+    return found == resources_.end() ? nullptr : &*found;
+  }
+
+  /// By name. `name`, if found, is the server's copy.
+  [[nodiscard]] const WebProtocol* FindProtocol(std::string_view name) const {
+    const auto found = std::ranges::find_if(
+        protocols_, [&](const WebProtocol& each) { return std::ranges::find(each.names, name) != each.names.end(); });
+    return found == protocols_.end() ? nullptr : &*found;
+  }
+
+  /// "a, b, c".
+  [[nodiscard]] std::string ProtocolNames() const {
+    std::string names;
+    for (const WebProtocol& protocol : protocols_) {
+      for (const std::string& name : protocol.names) names += (names.empty() ? "" : ", ") + name;
+    }
+    return names;
+  }
+
+  void Add(const std::shared_ptr<WebConnection>& connection) {
+    if (connections_.insert(connection).second && connection->is_session()) ++sessions_;
+  }
+
+  void Remove(const std::shared_ptr<WebConnection>& connection) noexcept {
+    if (connections_.erase(connection) > 0 && connection->is_session()) --sessions_;
+  }
+
   /// Those that will not hear by themselves that they have been cut.
-  void RemoveLost() noexcept;
+  void RemoveLost() noexcept {
+    for (;;) {
+      const auto lost = std::ranges::find_if(connections_, [](const auto& each) { return each->is_lost(); });
+      if (lost == connections_.end()) return;
+      const std::shared_ptr<WebConnection> connection = *lost;
+      connection->Remove();
+    }
+  }
+
   /// One that is no session, unless it is there already. If there are too many, the one that has been there for the longest
   /// time goes.
-  void AddVisitor(const std::shared_ptr<WebConnection>& visitor);
+  void AddVisitor(const std::shared_ptr<WebConnection>& visitor) {
+    if (!connections_.insert(visitor).second || connections_.size() - sessions_.load() <= limits().visitors) return;
+    std::shared_ptr<WebConnection> oldest;
+    for (const auto& each : connections_) {
+      if (each->is_session()) continue;
+      if (oldest == nullptr || each->since() < oldest->since()) oldest = each;
+    }
+    oldest->Remove();
+  }
+
   /// Whether there is a place for one more session; if there is none, the oldest that may do less makes room. Of those whose
   /// places are kept, or of the others.
-  bool MakeRoomFor(WebRole role, bool is_kept);
+  bool MakeRoomFor(WebRole role, bool is_kept) {
+    std::size_t alike = 0;
+    std::shared_ptr<WebConnection> least;
+    for (const auto& each : connections_) {
+      if (!each->is_session() || each->is_kept() != is_kept) continue;
+      ++alike;
+      if (each->role() >= role) continue;
+      if (least == nullptr || std::pair(each->role(), each->since()) < std::pair(least->role(), least->since())) {
+        least = each;
+      }
+    }
+    if (alike < limits().clients) return true;
+    if (least == nullptr) return false;
+    least->End("somebody who may do more needs the place");
+    least->GiveUpPlace();
+    --sessions_;
+    return true;
+  }
+
   [[nodiscard]] std::size_t sessions() const noexcept { return sessions_.load(); }
   [[nodiscard]] std::size_t connections() const noexcept { return connections_.size(); }
 
   /// Also for those that come and go meanwhile.
-  void ForEach(const std::function<void(WebConnection&)>& use);
+  void ForEach(const std::function<void(WebConnection&)>& use) {
+    const std::vector<std::shared_ptr<WebConnection>> now(connections_.begin(), connections_.end());
+    for (const auto& each : now) use(*each);
+  }
+
   /// No connection is left; the sessions are destroyed.
-  void Clear() noexcept;
+  void Clear() noexcept {
+    for (const auto& each : connections_) each->Lose();
+    RemoveLost();
+  }
 
  private:
   struct Context : boost::asio::io_context {

@@ -13,7 +13,7 @@
 #include <boost/beast/websocket/stream.hpp>
 
 #include "core/base/characters.h"
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 #include "plugins/web_server/internal/beast_connections.h"
 #include "plugins/web_server/internal/token_bucket.h"
 

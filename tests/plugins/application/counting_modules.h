@@ -12,7 +12,6 @@
 #include "core/port/output.h"
 #include "plugins/application/application.h"
 #include "plugins/parameters/parameter.h"
-#include "plugins/parameters/static_parameter.h"
 
 namespace runnel::test {
 

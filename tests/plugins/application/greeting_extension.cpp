@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/plugin/plugin_entry.h"
-#include "plugins/application/extension_registry.h"
+#include "plugins/application/application_extension.h"
 
 namespace {
 

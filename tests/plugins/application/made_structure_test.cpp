@@ -6,7 +6,7 @@
 #include "core/module/group_parameter.h"
 #include "core/port/proxy_port.h"
 #include "plugins/structure/structure_request.h"
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "tests/plugins/application/counting_modules.h"
 
 namespace runnel::test {

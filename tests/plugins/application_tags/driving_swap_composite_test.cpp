@@ -1,6 +1,6 @@
 // What the tables of swaps do not see: composites in a row, units that change, ports farther up, and places that a recording has.
 
-#include "plugins/parameters/static_parameter.h"
+#include "plugins/parameters/parameter.h"
 #include "plugins/structure/value_by_hand.h"
 #include "tests/plugins/application_tags/driving_swap_fixture.h"
 

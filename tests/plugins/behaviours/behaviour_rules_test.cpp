@@ -7,7 +7,7 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 
 namespace runnel {
 namespace {

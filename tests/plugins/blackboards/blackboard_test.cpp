@@ -3,7 +3,7 @@
 #include <random>
 
 #include "core/port/cycle.h"
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "tests/plugins/blackboards/blackboard_fixture.h"
 
 namespace runnel::test {

@@ -12,7 +12,7 @@
 #include "core/types/shared_vector_types.h"
 #include "core/types/text_format.h"
 #include "core/types/type_of.h"
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "tests/plugins/cdr_values/random_value.h"
 #include "tests/plugins/values/example_types.h"
 

@@ -26,7 +26,6 @@
 #include "modules/types/pose.h"
 #include "plugins/foxglove/foxglove.h"
 #include "plugins/parameters/parameter.h"
-#include "plugins/parameters/static_parameter.h"
 #include "plugins/structure/structure_editor.h"
 #include "tests/support/wait_until.h"
 

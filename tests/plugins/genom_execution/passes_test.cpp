@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "tests/plugins/genom_execution/sketch.h"
 
 namespace runnel::genom_execution {

@@ -1,6 +1,6 @@
 #include "core/port/port.h"
 #include "plugins/genom_modules/component_state.h"
-#include "plugins/testing/real_time_cycles.h"
+#include "plugins/testing/matchers.h"
 #include "tests/plugins/genom_modules/component_fixture.h"
 
 namespace runnel::test {

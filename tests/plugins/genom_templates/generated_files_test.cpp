@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/genom_text/file_text.h"
+#include "core/base/files.h"
 #include "tests/support/temporary_folder.h"
 
 namespace runnel::genom {
@@ -21,7 +21,7 @@ class GeneratedFilesTest : public testing::Test {
     return written.empty() ? What::kConflict : written[0].what;
   }
   void Change(const std::string& text) { std::ofstream(folder_.path() / "sub/file.c") << text; }
-  std::string Text() { return TextOf(folder_.path() / "sub/file.c").value_or("nothing"); }
+  std::string Text() { return TextOfFile(folder_.path() / "sub/file.c").value_or("nothing"); }
 
   test::TemporaryFolder folder_;
   Diagnostics diagnostics_;

@@ -9,9 +9,9 @@
 
 #include <gmock/gmock.h>
 
+#include "core/base/files.h"
 #include "plugins/genom_description/description.h"
 #include "plugins/genom_templates/template_run.h"
-#include "plugins/genom_text/file_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace runnel::genom {
@@ -141,7 +141,7 @@ TEST_F(TemplateMutationTest, WhateverIsRunEndsAndErrorsHavePlaces) {
   const int count = MutationCount();
   for (int i = 0; i < count; ++i) {
     const fs::path& file = files_[Below(files_.size())];
-    const std::string before = *TextOf(file);
+    const std::string before = *TextOfFile(file);
     const std::string text = Mutated(before);
     std::ofstream(file, std::ios::binary | std::ios::trunc) << text;
     // One that reads the file: its own, or any, for what they share.

@@ -5,10 +5,10 @@
 
 #include <gmock/gmock.h>
 
+#include "core/base/files.h"
 #include "core/xml/xml_document.h"
 #include "plugins/genom_description/description.h"
 #include "plugins/genom_templates/template_run.h"
-#include "plugins/genom_text/file_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace runnel::genom {
@@ -79,7 +79,7 @@ TEST(SkeletonTest, MadeAnewItKeepsWhatWasFilledIn) {
   Diagnostics diagnostics;
   (void)WriteFiles(folder.path(), FilesOf("skeleton", Described()), WhatIsThere::kIsMerged, diagnostics);
   const auto file = folder.path() / "codels/nav_drive_codels.c";
-  std::string text = TextOf(file).value();
+  std::string text = TextOfFile(file).value();
   const std::string untouched = "  return nav_step;\n";
   text.replace(text.find(untouched), untouched.size(), "  *goal = *to;\n  goal->x += 1;\n  return nav_step;\n");
   std::ofstream(file) << text;
@@ -88,18 +88,18 @@ TEST(SkeletonTest, MadeAnewItKeepsWhatWasFilledIn) {
                    FilesOf("skeleton", Described(", in boolean fast", " codel<finish> finish(out goal) yield ether;")),
                    WhatIsThere::kIsMerged, diagnostics);
   EXPECT_TRUE(diagnostics.ok()) << diagnostics.ToString();
-  EXPECT_THAT(TextOf(file).value(),
+  EXPECT_THAT(TextOfFile(file).value(),
               AllOf(HasSubstr("begin(const m_s *to, m_s *goal, bool fast, const genom_context self)\n{\n"
                               "  *goal = *to;\n  goal->x += 1;\n  return nav_step;\n}\n"),
                     HasSubstr("finish(m_s *goal, const genom_context self)\n"), Not(HasSubstr("<<<<<<<"))));
   // The user changed the signature, and so does the description.
-  text = TextOf(file).value();
+  text = TextOfFile(file).value();
   text.replace(text.find("bool fast"), 9, "int fast");
   std::ofstream(file) << text;
   const auto written =
       WriteFiles(folder.path(), FilesOf("skeleton", Described(", in long fast")), WhatIsThere::kIsMerged, diagnostics);
   EXPECT_EQ(std::ranges::count(written, WrittenFile::What::kConflict, &WrittenFile::what), 1);
-  EXPECT_THAT(TextOf(file).value(), HasSubstr("<<<<<<< yours\n"));
+  EXPECT_THAT(TextOfFile(file).value(), HasSubstr("<<<<<<< yours\n"));
 }
 
 TEST(DocsTest, APageAndItsDrawings) {

@@ -22,7 +22,6 @@
 #include "core/types/type_builder.h"
 #include "plugins/inspector/inspector.h"
 #include "plugins/parameters/parameter.h"
-#include "plugins/parameters/static_parameter.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/structure/change_history.h"
 #include "plugins/web_server/web_server.h"

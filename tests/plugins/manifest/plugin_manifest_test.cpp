@@ -11,7 +11,6 @@
 #include "core/port/output.h"
 #include "plugins/manifest/module_description.h"
 #include "plugins/parameters/parameter.h"
-#include "plugins/parameters/static_parameter.h"
 #include "tests/support/temporary_folder.h"
 
 namespace runnel::test {

@@ -9,8 +9,7 @@
 
 #include "core/port/probe_port.h"
 #include "plugins/scheduling/scheduler.h"
-#include "plugins/testing/allocation_guard.h"
-#include "plugins/testing/system_call_probe.h"
+#include "plugins/testing/guards.h"
 
 namespace runnel::test {
 namespace {

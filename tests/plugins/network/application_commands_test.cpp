@@ -7,8 +7,7 @@
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
-#include "plugins/cdr_values/cdr_reader.h"
-#include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/cdr_values/cdr_stream.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/ros_messages/names.h"
 #include "tests/plugins/network/network_member.h"

@@ -4,9 +4,9 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/cdr_values/cdr_stream.h"
 #include "plugins/network_discovery/distant_type.h"
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "tests/plugins/network/network_member.h"
 
 namespace runnel::test {

@@ -2,7 +2,7 @@
 // more than be read.
 #include <gmock/gmock.h>
 
-#include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/cdr_values/cdr_stream.h"
 #include "plugins/network_discovery/discovery_table.h"
 #include "tests/plugins/network/network_member.h"
 

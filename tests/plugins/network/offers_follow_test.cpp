@@ -6,7 +6,7 @@
 
 #include "plugins/network/xml_network_words.h"
 #include "plugins/services/service.h"
-#include "plugins/structure/extension_changes.h"
+#include "plugins/structure/change.h"
 #include "tests/plugins/network/network_member.h"
 
 namespace runnel::test {

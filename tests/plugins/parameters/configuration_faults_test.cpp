@@ -14,7 +14,6 @@
 #include "plugins/application/application.h"
 #include "plugins/parameters/configuration.h"
 #include "plugins/parameters/parameter.h"
-#include "plugins/parameters/static_parameter.h"
 #include "tests/support/faulty_operation.h"
 #include "tests/support/temporary_folder.h"
 

@@ -8,7 +8,6 @@
 
 #include "core/element/runtime.h"
 #include "core/module/module.h"
-#include "plugins/parameters/static_parameter.h"
 
 namespace runnel {
 namespace {

@@ -4,7 +4,6 @@
 #include "core/module/module.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/parameters/parameter_base.h"
-#include "plugins/parameters/static_parameter.h"
 
 namespace runnel {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "plugins/structure/extension_changes.h"
+#include "plugins/structure/change.h"
 #include "plugins/values/json_values.h"
 #include "tests/plugins/recording/recording_fixture.h"
 

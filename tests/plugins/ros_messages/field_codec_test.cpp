@@ -13,7 +13,7 @@
 #include "modules/types/pose.h"
 #include "plugins/cdr_values/cdr_values.h"
 #include "plugins/ros_messages/message_codec.h"
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "tests/plugins/ros_messages/random_message.h"
 
 namespace runnel::test {

@@ -16,7 +16,7 @@
 
 #include "plugins/cdr_values/cdr_values.h"
 #include "plugins/ros_messages/message_codec.h"
-#include "plugins/ros_messages/message_export.h"
+#include "plugins/ros_messages/message_library.h"
 #include "tests/plugins/cdr_values/random_value.h"
 #include "tests/plugins/ros_messages/random_message.h"
 

@@ -16,7 +16,7 @@
 #include "modules/types/world_map.h"
 #include "plugins/cdr_values/cdr_values.h"
 #include "plugins/ros_messages/message_library.h"
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "tests/plugins/cdr_values/random_value.h"
 
 namespace example {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/cdr_values/cdr_stream.h"
 #include "plugins/ros_messages/message_library.h"
 
 namespace runnel::test {

@@ -8,7 +8,7 @@
 #include "core/module/group.h"
 #include "core/port/cycle.h"
 #include "core/port/typed_ports.h"
-#include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/cdr_values/cdr_stream.h"
 #include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/ros_services/offered_service.h"
@@ -16,7 +16,7 @@
 #include "plugins/ros_services/taken_service.h"
 #include "plugins/services/client.h"
 #include "plugins/services/service.h"
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "tests/support/fake_wire.h"
 #include "tests/support/wait_until.h"
 

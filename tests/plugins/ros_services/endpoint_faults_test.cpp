@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/element/runtime.h"
-#include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/cdr_values/cdr_stream.h"
 #include "plugins/network_discovery/discovery_table.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/ros_services/service_endpoints.h"

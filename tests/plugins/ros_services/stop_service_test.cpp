@@ -8,8 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "core/element/runtime.h"
-#include "plugins/cdr_values/cdr_reader.h"
-#include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/cdr_values/cdr_stream.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/ros_services/ros_time.h"
 #include "tests/support/fake_wire.h"

@@ -1,7 +1,7 @@
 // A call allocates nothing, in neither cycle.
 
 #include "core/port/cycle.h"
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "tests/plugins/services/service_fixture.h"
 
 namespace runnel::test {

@@ -17,7 +17,6 @@
 #include "core/port/output.h"
 #include "core/port/proxy_port.h"
 #include "plugins/parameters/parameter.h"
-#include "plugins/parameters/static_parameter.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/structure/structure_editor.h"
 #include "tests/support/wait_until.h"

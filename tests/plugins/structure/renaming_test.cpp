@@ -5,7 +5,7 @@
 #include "core/paths/late_connections.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/change_history.h"
-#include "plugins/structure/name_in_file.h"
+#include "plugins/structure/renamed_text.h"
 #include "tests/plugins/structure/editor_fixture.h"
 
 namespace runnel::test {

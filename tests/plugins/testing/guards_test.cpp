@@ -1,3 +1,5 @@
+#include "plugins/testing/guards.h"
+
 #include <cstdlib>
 #include <memory>
 #include <mutex>
@@ -8,10 +10,6 @@
 #include <gtest/gtest.h>
 #include <sys/syscall.h>
 #include <unistd.h>
-
-#include "plugins/testing/allocation_guard.h"
-#include "plugins/testing/lock_probe.h"
-#include "plugins/testing/system_call_probe.h"
 
 namespace runnel::test {
 namespace {

@@ -1,7 +1,7 @@
 #include "core/module/group.h"
 #include "core/plugin/module_registry.h"
 #include "plugins/structure/structure_editor.h"
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "tests/plugins/tracing/trace_fixture.h"
 #include "tests/support/wait_until.h"
 

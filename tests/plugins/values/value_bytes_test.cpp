@@ -1,6 +1,6 @@
 #include "plugins/values/value_bytes.h"
 
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "tests/plugins/values/example_types.h"
 
 namespace runnel::test {

@@ -13,7 +13,6 @@
 #include "plugins/application_tags/application_tags.h"
 #include "plugins/parameters/file_path.h"
 #include "plugins/parameters/parameter.h"
-#include "plugins/parameters/static_parameter.h"
 
 namespace runnel::testing {
 

@@ -6,7 +6,7 @@
 
 #include "plugins/application_tags/run_description.h"
 #include "plugins/network/network_engines.h"
-#include "plugins/network/xml_network_tags.h"
+#include "plugins/network/xml_network_words.h"
 #include "tests/plugins/application_files/saving/saving_workshop.h"
 #include "tests/support/fake_wire.h"
 
