@@ -8,7 +8,6 @@
 #include <CLI/CLI.hpp>
 
 #include "core/base/error.h"
-#include "core/base/exception_text.h"
 #include "core/base/number_text.h"
 
 // What the programs beside `runnel` have in common.

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/arena/application_text.h"
+#include "apps/arena/names.h"
 
 namespace runnel::arena {
 

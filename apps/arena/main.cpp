@@ -4,8 +4,8 @@
 #include <iostream>
 #include <optional>
 
-#include "apps/arena/application_text.h"
 #include "apps/arena/journal.h"
+#include "apps/arena/names.h"
 #include "apps/arena/progress.h"
 #include "apps/arena/report.h"
 #include "apps/program.h"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/arena/application_text.h"
+#include "apps/arena/names.h"
 #include "modules/simulation/world_file/world_file.h"
 
 namespace runnel::arena {

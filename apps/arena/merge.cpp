@@ -2,8 +2,8 @@
 #include <map>
 #include <string>
 
-#include "apps/arena/application_text.h"
 #include "apps/arena/journal.h"
+#include "apps/arena/names.h"
 #include "apps/arena/run_record.h"
 #include "apps/program.h"
 

@@ -19,9 +19,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "apps/arena/application_text.h"
 #include "apps/arena/bounds.h"
 #include "apps/arena/matrix.h"
+#include "apps/arena/names.h"
 #include "core/base/file_descriptor.h"
 #include "core/base/temporary_folder.h"
 

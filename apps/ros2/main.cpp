@@ -12,7 +12,6 @@
 #include "plugins/application/application_description.h"
 #include "plugins/manifest/plugin_manifest.h"
 #include "plugins/ros_messages/message_codec.h"
-#include "plugins/ros_messages/message_export.h"
 #include "plugins/ros_messages/message_library.h"
 
 namespace runnel {

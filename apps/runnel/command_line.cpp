@@ -7,7 +7,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/ranges.h>
 
-#include "apps/runnel/commands.h"
 #include "apps/runnel/control_command_line.h"
 #include "apps/runnel/extension_command_line.h"
 #include "apps/runnel/meant_application.h"

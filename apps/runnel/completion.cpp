@@ -5,7 +5,7 @@
 #include <map>
 #include <sstream>
 
-#include "apps/runnel/commands.h"
+#include "apps/runnel/command_line.h"
 #include "apps/runnel/meant_application.h"
 #include "core/base/nearest_name.h"
 #include "plugins/control/control_folder.h"

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "apps/runnel/commands.h"
+#include "apps/runnel/command_line.h"
 #include "apps/runnel/meant_application.h"
 #include "apps/runnel/output.h"
 #include "core/xml/xml_document.h"

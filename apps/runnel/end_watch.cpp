@@ -5,7 +5,7 @@
 #include <iostream>
 #include <utility>
 
-#include "apps/runnel/commands.h"
+#include "apps/runnel/command_line.h"
 #include "apps/runnel/output.h"
 #include "core/element/own_thread.h"
 #include "core/element/runtime.h"

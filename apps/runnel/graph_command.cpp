@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "apps/runnel/commands.h"
+#include "apps/runnel/command_line.h"
 #include "apps/runnel/output.h"
 #include "core/base/files.h"
 #include "core/base/program_output.h"

@@ -7,7 +7,7 @@
 #include "apps/runnel/command_line.h"
 #include "apps/runnel/other_programs.h"
 #include "apps/runnel/output.h"
-#include "core/base/exception_text.h"
+#include "core/base/error.h"
 
 namespace runnel::program {
 

@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
-#include "apps/runnel/commands.h"
+#include "apps/runnel/command_line.h"
 #include "apps/runnel/output.h"
 #include "core/base/characters.h"
 #include "core/base/files.h"

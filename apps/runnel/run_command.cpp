@@ -15,7 +15,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include "apps/runnel/commands.h"
+#include "apps/runnel/command_line.h"
 #include "apps/runnel/end_watch.h"
 #include "apps/runnel/other_programs.h"
 #include "apps/runnel/output.h"

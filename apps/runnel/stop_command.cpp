@@ -6,7 +6,7 @@
 
 #include <unistd.h>
 
-#include "apps/runnel/commands.h"
+#include "apps/runnel/command_line.h"
 #include "apps/runnel/meant_application.h"
 #include "apps/runnel/output.h"
 #include "plugins/control/control_folder.h"

@@ -12,8 +12,8 @@
 #include "modules/types/pose.h"
 #include "modules/types/surroundings.h"
 #include "plugins/parameters/input_timeout.h"
+#include "plugins/parameters/parameter.h"
 #include "plugins/parameters/prepares_anywhere.h"
-#include "plugins/parameters/static_parameter.h"
 
 namespace runnel {
 

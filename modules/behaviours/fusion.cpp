@@ -5,7 +5,6 @@
 #include "core/conversion/number_conversion.h"
 #include "core/element/framework_element.h"
 #include "core/port/port_stop.h"
-#include "core/types/type_info.h"
 #include "core/types/type_of.h"
 #include "modules/flow/passing_module.h"
 

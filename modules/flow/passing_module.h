@@ -9,7 +9,6 @@
 #include "core/module/module.h"
 #include "core/port/typed_ports.h"
 #include "plugins/parameters/parameter.h"
-#include "plugins/parameters/static_parameter.h"
 
 namespace runnel::flow {
 

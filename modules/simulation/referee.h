@@ -17,8 +17,8 @@
 #include "modules/types/planner_status.h"
 #include "modules/types/pose.h"
 #include "plugins/parameters/file_path.h"
+#include "plugins/parameters/parameter.h"
 #include "plugins/parameters/prepares_anywhere.h"
-#include "plugins/parameters/static_parameter.h"
 
 namespace runnel {
 

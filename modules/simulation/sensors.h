@@ -17,7 +17,6 @@
 #include "modules/types/pose.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/parameters/prepares_anywhere.h"
-#include "plugins/parameters/static_parameter.h"
 
 namespace runnel {
 

@@ -15,7 +15,6 @@
 #include "plugins/parameters/input_timeout.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/parameters/prepares_anywhere.h"
-#include "plugins/parameters/static_parameter.h"
 
 namespace runnel {
 

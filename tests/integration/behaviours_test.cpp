@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "tests/integration/application_run.h"
 
 namespace runnel::test {

@@ -16,7 +16,6 @@
 #include "core/port/output.h"
 #include "modules/types/surroundings.h"
 #include "plugins/parameters/parameter.h"
-#include "plugins/parameters/static_parameter.h"
 #include "plugins/services/client.h"
 #include "plugins/services/service.h"
 

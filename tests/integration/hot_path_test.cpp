@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "tests/integration/application_run.h"
 
 namespace runnel::test {

@@ -2,9 +2,7 @@
 
 // One module on its own, in a test, with GoogleTest. Library: runnel::testing, which runnel_test() brings.
 
-#include "plugins/testing/allocation_guard.h"  // AllocationGuard: in a test of anything
-#include "plugins/testing/fault_injection.h"   // the n-th allocation or call fails
-#include "plugins/testing/lock_probe.h"
-#include "plugins/testing/matchers.h"    // HasPublished, PublishesWithin, FaultSays, KeepsRealTime
-#include "plugins/testing/module_rig.h"  // ModuleRig
-#include "plugins/testing/system_call_probe.h"
+#include "plugins/testing/fault_injection.h"  // the n-th allocation or call fails
+#include "plugins/testing/guards.h"           // AllocationGuard: in a test of anything
+#include "plugins/testing/matchers.h"         // HasPublished, PublishesWithin, FaultSays, KeepsRealTime
+#include "plugins/testing/module_rig.h"       // ModuleRig

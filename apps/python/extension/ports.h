@@ -10,7 +10,7 @@
 #include <pybind11/pybind11.h>
 
 #include "apps/python/extension/interpreter.h"
-#include "core/element/element_listener.h"
+#include "core/element/runtime.h"
 #include "core/port/input_base.h"
 #include "core/port/typed_ports.h"
 #include "plugins/application/application.h"

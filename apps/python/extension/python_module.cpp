@@ -12,7 +12,6 @@
 #include "core/element/file_notes.h"
 #include "core/module/kept_state.h"
 #include "plugins/parameters/parameter.h"
-#include "plugins/parameters/static_parameter.h"
 #include "plugins/scheduling/thread_container.h"
 
 namespace py = pybind11;

@@ -4,10 +4,8 @@
 #include <charconv>
 #include <limits>
 #include <map>
-#include <string_view>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "core/xml/xml_document.h"
 #include "core/xml/xml_reading.h"

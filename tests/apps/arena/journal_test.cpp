@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "apps/arena/application_text.h"
+#include "apps/arena/names.h"
 #include "modules/simulation/referee.h"
 #include "tests/support/temporary_folder.h"
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/arena/application_text.h"
+#include "apps/arena/names.h"
 
 namespace runnel::arena {
 namespace {

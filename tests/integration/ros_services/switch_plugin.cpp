@@ -6,7 +6,6 @@
 #include "core/plugin/plugin_entry.h"
 #include "core/port/output.h"
 #include "plugins/parameters/parameter.h"
-#include "plugins/parameters/static_parameter.h"
 #include "plugins/services/client.h"
 #include "plugins/services/service.h"
 

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "plugins/testing/module_rig.h"
 #include "tests/modules/simulation/simulation_fixture.h"
 

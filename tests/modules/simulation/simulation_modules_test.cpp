@@ -4,7 +4,7 @@
 
 #include "modules/simulation/sensors.h"
 #include "modules/simulation/simulated_world.h"
-#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/guards.h"
 #include "plugins/testing/module_rig.h"
 #include "tests/modules/simulation/simulation_fixture.h"
 
