@@ -5,7 +5,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include "modules/types/image.h"
 #include "modules/types/measurements.h"
 #include "plugins/cdr_values/cdr_values.h"
 

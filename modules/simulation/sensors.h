@@ -12,7 +12,6 @@
 #include "modules/simulation/algorithm/range_sensors.h"
 #include "modules/simulation/scene.h"
 #include "modules/types/algorithm/angle.h"
-#include "modules/types/image.h"
 #include "modules/types/measurements.h"
 #include "modules/types/pose.h"
 #include "plugins/parameters/parameter.h"

@@ -35,4 +35,17 @@ inline void Describe(TypeBuilder<Drawing>& type) {
   type.Name("Drawing").SemanticTag("drawing").Fields<&Drawing::frame, &Drawing::items>();
 }
 
+inline void Describe(TypeBuilder<MapOutline>& type) {
+  type.Name("MapOutline")
+      .Fields<&MapOutline::points, &MapOutline::height>({.unit = "m"})
+      .Field("is_hole", &MapOutline::is_hole, {.description = "within the outlines that come before it"});
+}
+
+inline void Describe(TypeBuilder<WorldMap>& type) {
+  type.Name("WorldMap")
+      .SemanticTag("world_map")
+      .Fields<&WorldMap::name, &WorldMap::start, &WorldMap::goal, &WorldMap::outlines>()
+      .Field("bounds", &WorldMap::bounds, {.unit = "m"});
+}
+
 }  // namespace runnel

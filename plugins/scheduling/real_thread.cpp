@@ -14,7 +14,7 @@
 
 #include "core/base/signal_stack.h"
 #include "core/log/logger.h"
-#include "plugins/scheduling/due_time.h"
+#include "plugins/scheduling/thread_options.h"
 #include "plugins/timing/tick_clock.h"
 
 namespace runnel {

@@ -6,7 +6,7 @@
 
 #include "core/base/clock.h"
 #include "plugins/scheduling/cycle_runner.h"
-#include "plugins/scheduling/due_time.h"
+#include "plugins/scheduling/thread_options.h"
 #include "plugins/timing/tick_clock.h"
 
 namespace runnel {

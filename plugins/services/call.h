@@ -14,7 +14,7 @@
 #include "core/element/robot_stop.h"
 #include "core/lockfree/wake_event.h"
 #include "core/types/type_of.h"
-#include "plugins/services/call_status.h"
+#include "plugins/services/callable.h"
 
 namespace runnel {
 

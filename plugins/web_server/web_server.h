@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "plugins/web_server/web_resource.h"
 #include "plugins/web_server/web_server_options.h"
 #include "plugins/web_server/web_session.h"
 

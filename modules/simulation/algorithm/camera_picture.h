@@ -5,7 +5,7 @@
 #include "modules/simulation/algorithm/ray_caster.h"
 #include "modules/simulation/algorithm/world.h"
 #include "modules/types/algorithm/angle.h"
-#include "modules/types/algorithm/image.h"
+#include "modules/types/algorithm/measurements.h"
 #include "modules/types/algorithm/pose.h"
 
 namespace runnel {

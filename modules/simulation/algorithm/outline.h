@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "modules/simulation/algorithm/world.h"
+#include "modules/types/algorithm/drawing.h"
 #include "modules/types/algorithm/segment.h"
-#include "modules/types/algorithm/world_map.h"
 
 namespace runnel {
 

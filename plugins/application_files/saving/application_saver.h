@@ -16,7 +16,7 @@ struct SaveTools {
 };
 
 /// Writes a text that gives what the application is now to `file` ("": the one that it came from), at once or not at
-/// all (replace_file.h), after building it once in a runtime of its own as `runnel check` does: a text that would not
+/// all (core/base/files.h), after building it once in a runtime of its own as `runnel check` does: a text that would not
 /// load never replaces a file. If the application came from a file, it is that text with what has changed since, and
 /// all else byte for byte as it was; if it was built by code, a new one. Values that came from the command line or a
 /// configuration are left to these, unless they have been changed since; one that an output sets comes anew by the

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "plugins/web_server/web_resource.h"
+#include "plugins/web_server/web_session.h"
 
 namespace runnel {
 

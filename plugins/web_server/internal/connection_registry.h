@@ -15,7 +15,6 @@
 
 #include "core/base/retry.h"
 #include "plugins/web_server/access_rules.h"
-#include "plugins/web_server/web_resource.h"
 #include "plugins/web_server/web_server_options.h"
 #include "plugins/web_server/web_session.h"
 

@@ -2,11 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "modules/types/image.h"
+#include "modules/types/drawing.h"
 #include "modules/types/measurements.h"
 #include "modules/types/planner_status.h"
 #include "modules/types/pose.h"
-#include "modules/types/world_map.h"
 
 namespace runnel {
 namespace {

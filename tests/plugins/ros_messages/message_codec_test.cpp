@@ -9,11 +9,10 @@
 
 #include "core/types/builtin_types.h"
 #include "core/types/text_format.h"
-#include "modules/types/image.h"
+#include "modules/types/drawing.h"
 #include "modules/types/measurements.h"
 #include "modules/types/planner_status.h"
 #include "modules/types/pose.h"
-#include "modules/types/world_map.h"
 #include "plugins/cdr_values/cdr_values.h"
 #include "plugins/ros_messages/message_library.h"
 #include "plugins/testing/guards.h"

@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 
 #include "core/types/type_of.h"
+#include "modules/types/drawing.h"
 #include "modules/types/planner_status.h"
 #include "modules/types/surroundings.h"
-#include "modules/types/world_map.h"
 #include "tests/plugins/values/example_types.h"
 
 namespace runnel::test {

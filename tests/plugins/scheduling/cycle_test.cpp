@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/scheduling/due_time.h"
 #include "plugins/scheduling/real_thread.h"
 #include "plugins/scheduling/scheduler.h"
+#include "plugins/scheduling/thread_options.h"
 #include "plugins/timing/cycle_statistics.h"
 #include "plugins/timing/pacing.h"
 #include "tests/plugins/scheduling/test_modules.h"

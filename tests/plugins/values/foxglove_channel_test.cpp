@@ -8,11 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/types/eigen_types.h"
-#include "modules/types/image.h"
+#include "modules/types/drawing.h"
 #include "modules/types/measurements.h"
 #include "modules/types/planner_status.h"
 #include "modules/types/pose.h"
-#include "modules/types/world_map.h"
 
 namespace example {
 

@@ -7,10 +7,9 @@
 #include <ros_messages.h>
 
 #include "core/types/text_format.h"
-#include "modules/types/image.h"
+#include "modules/types/drawing.h"
 #include "modules/types/measurements.h"
 #include "modules/types/pose.h"
-#include "modules/types/world_map.h"
 #include "plugins/ros_messages/message_codec.h"
 #include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/names.h"
