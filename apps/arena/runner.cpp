@@ -23,7 +23,7 @@
 #include "apps/arena/matrix.h"
 #include "apps/arena/names.h"
 #include "core/base/file_descriptor.h"
-#include "core/base/temporary_folder.h"
+#include "core/base/files.h"
 
 namespace runnel::arena {
 

@@ -9,7 +9,7 @@
 
 #include "apps/new/new_files.h"
 #include "apps/program.h"
-#include "core/base/identifier.h"
+#include "core/base/characters.h"
 #include "core/base/nearest_name.h"
 #include "core/base/result.h"
 #include "core/plugin/plugin_manager.h"

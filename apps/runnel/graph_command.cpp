@@ -6,7 +6,6 @@
 #include "apps/runnel/output.h"
 #include "core/base/files.h"
 #include "core/base/program_output.h"
-#include "core/base/temporary_folder.h"
 #include "plugins/application/application_description.h"
 #include "plugins/application/dot_text.h"
 

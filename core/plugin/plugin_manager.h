@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/files.h"
 #include "core/base/result.h"
 #include "core/base/retry.h"
-#include "core/base/temporary_folder.h"
 #include "core/plugin/module_registry.h"
 #include "core/plugin/plugin_registry.h"
 

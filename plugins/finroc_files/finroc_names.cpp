@@ -3,7 +3,7 @@
 #include <array>
 #include <charconv>
 
-#include "core/base/identifier.h"
+#include "core/base/characters.h"
 
 namespace runnel {
 

@@ -6,7 +6,6 @@
 
 #include "core/base/files.h"
 #include "core/base/program_output.h"
-#include "core/base/temporary_folder.h"
 
 namespace runnel::genom {
 

@@ -3,8 +3,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/base/files.h"
 #include "core/base/program_output.h"
-#include "core/base/temporary_folder.h"
 
 namespace runnel {
 

@@ -2,7 +2,6 @@
 #include <set>
 
 #include "core/base/characters.h"
-#include "core/base/identifier.h"
 #include "core/types/type_of.h"
 #include "plugins/ros_messages/internal/message_leaf.h"
 #include "plugins/ros_messages/message_library.h"

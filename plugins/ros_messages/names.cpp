@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/base/characters.h"
-#include "core/base/identifier.h"
 
 namespace runnel {
 

@@ -9,9 +9,9 @@
 #include "core/types/type_of.h"
 #include "plugins/foxglove/internal/foxglove_shared.h"
 #include "plugins/foxglove/internal/server_messages.h"
-#include "plugins/values/base64.h"
 #include "plugins/values/json_values.h"
 #include "plugins/values/json_writer.h"
+#include "plugins/values/value_bytes.h"
 
 namespace runnel::internal {
 

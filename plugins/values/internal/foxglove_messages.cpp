@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "core/types/type_of.h"
-#include "plugins/values/base64.h"
 #include "plugins/values/internal/message_parts.h"
 #include "plugins/values/json_values.h"
 #include "plugins/values/json_writer.h"
+#include "plugins/values/value_bytes.h"
 
 namespace runnel::internal {
 

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/base/temporary_folder.h"
+#include "core/base/files.h"
 
 namespace runnel {
 namespace {

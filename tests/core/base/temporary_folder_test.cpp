@@ -1,5 +1,3 @@
-#include "core/base/temporary_folder.h"
-
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -8,6 +6,8 @@
 
 #include <gmock/gmock.h>
 #include <stdlib.h>
+
+#include "core/base/files.h"
 
 namespace runnel {
 namespace {

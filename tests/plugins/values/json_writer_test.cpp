@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "plugins/testing/fault_injection.h"
-#include "plugins/values/base64.h"
+#include "plugins/values/value_bytes.h"
 
 namespace runnel {
 namespace {
