@@ -175,8 +175,6 @@ std::optional<std::string> TextOfFile(const std::filesystem::path& file) {
   return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
-namespace fs = std::filesystem;
-
 namespace {
 constexpr int kOpenFolders = 16;
 }

@@ -148,8 +148,6 @@ Result<void> ReadBySteps(const Step& root, CdrReader& reader, const void* fresh,
 
 namespace {
 
-using Kind = Step::Kind;
-
 double FieldNumber(const TypeInfo& type, const void* value, std::string_view name) {
   const FieldInfo* const field = type.FindField(name);
   return static_cast<double>(NumberOf(*field->type, field->address(ForLooking(value))));
