@@ -12,6 +12,20 @@
 
 namespace runnel::arena {
 
+/// "[#####-----]  50 %  30 of 60  0:21 left".
+[[nodiscard]] inline std::string ProgressLine(std::size_t done, std::size_t count, double elapsed) {
+  constexpr std::size_t kBar = 30;
+  const std::size_t filled = count == 0 ? kBar : kBar * done / count;
+  const std::size_t percent = count == 0 ? 100 : 100 * done / count;
+  std::string line =
+      fmt::format("[{:#<{}}{:-<{}}] {:3} %  {} of {}", "", filled, "", kBar - filled, percent, done, count);
+  if (done > 0 && done < count) {
+    const auto left = std::lround(std::ceil(elapsed / static_cast<double>(done) * static_cast<double>(count - done)));
+    line += fmt::format("  {}:{:02} left", left / 60, left % 60);
+  }
+  return line;
+}
+
 /// Shows on stderr how far the arena is: on a terminal one line that is written anew, with a bar
 /// and the time that remains; elsewhere a line for each run.
 class Progress {
@@ -64,19 +78,5 @@ class Progress {
   std::string last_;
   const std::chrono::steady_clock::time_point begin_;
 };
-
-/// "[#####-----]  50 %  30 of 60  0:21 left".
-[[nodiscard]] inline std::string ProgressLine(std::size_t done, std::size_t count, double elapsed) {
-  constexpr std::size_t kBar = 30;
-  const std::size_t filled = count == 0 ? kBar : kBar * done / count;
-  const std::size_t percent = count == 0 ? 100 : 100 * done / count;
-  std::string line =
-      fmt::format("[{:#<{}}{:-<{}}] {:3} %  {} of {}", "", filled, "", kBar - filled, percent, done, count);
-  if (done > 0 && done < count) {
-    const auto left = std::lround(std::ceil(elapsed / static_cast<double>(done) * static_cast<double>(count - done)));
-    line += fmt::format("  {}:{:02} left", left / 60, left % 60);
-  }
-  return line;
-}
 
 }  // namespace runnel::arena

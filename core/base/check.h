@@ -1,7 +1,6 @@
 #pragma once
 
 #include <stdexcept>
-#include <string>
 #include <string_view>
 
 namespace runnel {
@@ -13,9 +12,7 @@ class ProgrammingError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-[[noreturn]] inline void ThrowProgrammingError(std::string_view what, std::string_view detail) {
-  throw ProgrammingError(std::string(what) + " (" + std::string(detail) + ")");
-}
+[[noreturn]] void ThrowProgrammingError(std::string_view what, std::string_view detail);
 
 }  // namespace runnel
 

@@ -3,13 +3,9 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <new>
 #include <utility>
 
 #include <boost/lockfree/spsc_queue.hpp>
-
-#include "core/log/logger.h"
 
 namespace runnel::internal {
 
@@ -40,25 +36,7 @@ class LogRing {
   }
 
   /// One that no living thread has. Allocates.
-  [[nodiscard]] static LogRing& Take() {
-    LogRing* free = nullptr;
-    ForEach([&](LogRing& ring) {
-      bool taken = false;
-      // acquire: as in GiveBack(); relaxed: another thread has it.
-      if (free == nullptr &&
-          ring.taken_.compare_exchange_strong(taken, true, std::memory_order_acquire, std::memory_order_relaxed)) {
-        free = &ring;
-      }
-    });
-    if (free != nullptr) return *free;
-    LogRing* const added = std::make_unique<LogRing>().release();
-    added->next_ = first_.load(std::memory_order_relaxed);
-    // release: pairs with the acquire in ForEach().
-    while (!first_.compare_exchange_weak(added->next_, added, std::memory_order_release, std::memory_order_relaxed)) {
-    }
-    return *added;
-  }
-
+  [[nodiscard]] static LogRing& Take();
   /// By its thread, at its end; what waits in it is read nevertheless.
   void GiveBack() noexcept {
     // release: pairs with the acquire in Take(): the next owner pushes after this one.
@@ -80,20 +58,5 @@ class LogRing {
   std::atomic<bool> taken_{true};  // by a living thread
   LogRing* next_ = nullptr;        // constant once added
 };
-
-std::atomic<LogRing*> LogRing::first_{nullptr};
-thread_local constinit LogRing* log_ring = nullptr;
-
-inline void TakeLogRing() noexcept {
-  struct Ending {
-    ~Ending() { std::exchange(log_ring, nullptr)->GiveBack(); }
-  };
-  try {
-    log_ring = &LogRing::Take();
-  } catch (const std::bad_alloc&) {
-    return;
-  }
-  static thread_local const Ending ending;
-}
 
 }  // namespace runnel::internal
