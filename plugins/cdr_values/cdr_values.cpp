@@ -85,7 +85,7 @@ class ValueReader : public CdrWalk {
   }
 
   bool ReadEnumeration(const TypeInfo& type, void* value) {
-    return internal::WithEnumerationType(type, [&]<typename N>(std::type_identity<N>) {
+    return WithEnumerationType(type, [&]<typename N>(std::type_identity<N>) {
       N number = 0;
       if (!IsThere(reader_.Get(number))) return false;
       for (const EnumeratorInfo& each : type.enumerators()) {
@@ -266,7 +266,7 @@ void WriteCdr(const TypeInfo& type, const void* value, CdrWriter& writer) {
     case TypeKind::kLeaf:
       return WriteLeaf(type, value, writer);
     case TypeKind::kEnumeration:
-      return internal::WithEnumerationType(
+      return WithEnumerationType(
           type, [&]<typename N>(std::type_identity<N>) { writer.Put(static_cast<N>(type.enumeration().get(value))); });
     case TypeKind::kStructure:
       for (const FieldInfo& field : type.fields()) {
