@@ -15,6 +15,7 @@
 
 namespace runnel {
 
+class TypeInfo;
 struct FieldOptions;
 
 enum class TypeKind {
@@ -163,8 +164,6 @@ class TypeInfo {
 [[nodiscard]] const TypeInfo* FindType(std::string_view name);
 /// All types that have been asked for, sorted by name. Locks.
 [[nodiscard]] std::vector<const TypeInfo*> RegisteredTypes();
-
-class TypeInfo;
 
 /// Sets `to` to what `from` is, both objects of the type, part by part as the description has it: for values
 /// that two libraries share, of which each has its own idea of how the whole is copied. False if a list
