@@ -70,10 +70,7 @@ std::vector<const LateConnection*> Waiting(Runtime& runtime, const IsMeant& is_m
 
 bool LateConnection::is_of_its_input() const noexcept { return IsDistantPath(from) && !options.when_present; }
 
-std::string LateConnection::SourceText() const {
-  const std::string& part = options.part;
-  return from + (part.empty() || part.front() == '[' ? "" : ".") + part;
-}
+std::string LateConnection::SourceText() const { return from + options.PartText(); }
 
 LateConnections& LateConnections::Of(Runtime& runtime) {
   return runtime.root().FindOrAnnotate<LateConnections>(runtime);

@@ -80,10 +80,7 @@ Error CannotBePulled(const Port& output) {
 
 }  // namespace
 
-std::string Connection::SourceText() const {
-  const std::string& part = options.part;
-  return from->path() + (part.empty() || part.front() == '[' ? "" : ".") + part;
-}
+std::string Connection::SourceText() const { return from->path() + options.PartText(); }
 
 const std::vector<std::string>& OutOfBoundsNames() {
   static const std::vector<std::string> names{"discard", "clamp", "default"};
@@ -134,6 +131,11 @@ Result<void> Port::CheckEnds(const Port& from, const Port& to, const ConnectOpti
   const auto conversion = internal::ConversionBetween(from, to, options.part, options.convert);
   if (!conversion) return NoConversion(from, to, options, conversion.error());
   if (auto allowed = CheckConnectionRules(from, to); !allowed) return allowed;
+  if (options.queue > ConnectOptions::kLongestQueue) {
+    return Refusal(
+        from, "a queue of " + std::to_string(options.queue) + " values is too long",
+        "its memory is taken at once; at most " + std::to_string(ConnectOptions::kLongestQueue) + " values may wait");
+  }
   if (!options.pull) return {};
   if (*conversion != nullptr) {
     return Refusal(from, "cannot be pulled through a conversion to " + to.type().name(), "leave out one of the two");

@@ -15,6 +15,8 @@ namespace runnel {
 
 /// How one connection behaves.
 struct ConnectOptions {
+  static constexpr std::size_t kLongestQueue = 1'000'000;  ///< its memory is taken at once
+
   std::size_t queue = 0;  ///< how many values may wait at the input; 0: only the latest counts
   OnFull on_full = OnFull::kDropOldest;
   bool pull = false;  ///< the input pulls, see Strategy::kPull; not with a queue
@@ -24,6 +26,9 @@ struct ConnectOptions {
   bool late = false;
   std::string part = {};     ///< of the values at `from`: "x", "ranges[0]"; "" for all of them
   std::string convert = {};  ///< the name of a conversion; "" for the usual one, if one is needed
+
+  /// As it stands behind the path of the port: ".x", "[0]", "".
+  [[nodiscard]] std::string PartText() const { return (part.empty() || part.front() == '[' ? "" : ".") + part; }
 };
 
 /// Who sees to it that a value comes.

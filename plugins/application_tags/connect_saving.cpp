@@ -54,11 +54,6 @@ std::string PathFrom(FrameworkElement& home, const Port& port, PathKind kind) {
   return FindPort({home, shorter, {}}, kind) == &port ? shorter : full;
 }
 
-std::string PartText(const ConnectOptions& options) {
-  const std::string& part = options.part;
-  return (part.empty() || part.front() == '[' ? "" : ".") + part;
-}
-
 struct OptionText {
   AttributeRule rule;
   std::string usual;
@@ -109,7 +104,7 @@ bool SaysConnection(XmlElement tag, const PathUse& from_use, const std::string& 
   if (!is_same_part || !SaysOptions(tag, edge->options)) {
     if (!is_only_one) return false;
     if (!is_same_part) {
-      update.editor().SetAttribute(tag, "from", from_use.path + PartText(edge->options));
+      update.editor().SetAttribute(tag, "from", from_use.path + edge->options.PartText());
     }
     for (const auto& [rule, usual, value] : TextsOf(edge->options)) {
       value == usual ? update.editor().RemoveAttribute(tag, rule.name)
@@ -156,7 +151,7 @@ std::vector<NewElement> MissingConnections(const XmlElement*, FrameworkElement& 
       continue;
     }
     NewElement& made = elements.emplace_back(
-        NewElement{.name = "connect", .attributes = {{"from", from + PartText(edge.options)}, {"to", to}}});
+        NewElement{.name = "connect", .attributes = {{"from", from + edge.options.PartText()}, {"to", to}}});
     for (const auto& [rule, usual, value] : TextsOf(edge.options)) {
       if (value != usual) made.attributes.emplace_back(rule.name, value);
     }

@@ -14,15 +14,14 @@ namespace runnel {
 
 namespace {
 
-constexpr std::size_t kLongestQueue = 1'000'000;
-
 ConnectOptions ReadOptions(const TagUse& use) {
   ConnectOptions options;
   if (const XmlAttribute* const queue = use.Find("queue")) {
     options.queue = ParseCount(queue->value).value();
-    if (options.queue > kLongestQueue) {
+    if (options.queue > ConnectOptions::kLongestQueue) {
       use.Report({.message = "a queue of " + queue->value + " values is too long",
-                  .hint = "its memory is taken at once; at most " + std::to_string(kLongestQueue) + " values may wait"},
+                  .hint = "its memory is taken at once; at most " + std::to_string(ConnectOptions::kLongestQueue) +
+                          " values may wait"},
                  queue->value_position);
       options.queue = 0;
       return options;
