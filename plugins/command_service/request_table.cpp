@@ -10,6 +10,7 @@
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
 #include "core/types/duration_text.h"
+#include "plugins/structure/change_fields.h"
 
 namespace runnel {
 
@@ -165,9 +166,9 @@ bool LetsMove(const CommandRequest& request) {
 
 // Also by what is taken away: a module that has kept another one from driving, or the connection by which it did so.
 bool LetsMove(const ChangeSet& changes) {
-  return !std::ranges::all_of(changes, [](const Change& each) {
-    return std::holds_alternative<CreateGroup>(each) || std::holds_alternative<AddThread>(each) ||
-           std::holds_alternative<TagElement>(each) || std::holds_alternative<LogElement>(each);
+  return std::ranges::any_of(changes, [](const Change& each) {
+    const ChangeForm* const form = FormOf(each);
+    return form == nullptr || form->lets_move;
   });
 }
 

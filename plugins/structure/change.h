@@ -25,6 +25,7 @@ struct ParameterRecord;
 struct Setting {
   std::string parameter;
   std::string value;
+  friend bool operator==(const Setting& a, const Setting& b) = default;
 };
 
 using GivenState = std::shared_ptr<const internal::ElementState>;

@@ -1,5 +1,8 @@
 #include "plugins/structure/change_arguments.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "core/base/characters.h"
 #include "core/base/result.h"
 

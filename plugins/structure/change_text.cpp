@@ -1,243 +1,208 @@
 #include "plugins/structure/change_text.h"
 
 #include <algorithm>
-#include <array>
+#include <map>
 #include <utility>
 
 #include "core/base/nearest_name.h"
+#include "core/base/number_text.h"
 #include "core/types/duration_text.h"
-#include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/change_arguments.h"
+#include "plugins/structure/change_fields.h"
 
 namespace runnel {
 
 namespace {
 
-using internal::Arguments;
+using internal::AsArgument;
 using internal::ChangeArgument;
 using internal::ChangeLine;
+using FieldKind = ChangeField::Kind;
 
-constexpr std::size_t kLongestQueue = 1'000'000;
-constexpr std::uint64_t kLongestProbation = 1'000'000'000;
-const std::vector<std::string> kNoOrYes{"false", "true"};
-const std::vector<std::string> kDirections{"input", "output"};
+// "create port" of "create_port"
+std::string VerbOf(const ChangeForm& form) {
+  std::string verb = form.name;
+  std::ranges::replace(verb, '_', ' ');
+  return verb;
+}
 
-// period=20ms priority=10 on_overrun=skip activation=trigger
-template <typename Thread>
-void ReadThreadOptions(Arguments& arguments, Thread& thread) {
-  const auto read = [&](const ChangeArgument& argument) {
-    if (argument.name() == "period") {
-      const auto period = ParseDuration(argument.value());
-      if (!period) arguments.Complain(argument.position, period.error().message, period.error().hint);
-      if (period) thread.period = *period;
-    } else if (argument.name() == "priority") {
-      thread.priority = arguments.ReadCount<int>(argument, 99);
-    } else if (argument.name() == "on_overrun") {
-      thread.on_overrun =
-          static_cast<ThreadOptions::OnOverrun>(arguments.Choose(argument, argument.value(), OverrunNames()));
-    } else if (argument.name() == "activation") {
-      thread.activation =
-          static_cast<ThreadOptions::Activation>(arguments.Choose(argument, argument.value(), ActivationNames()));
-    } else {
-      return false;
-    }
-    return true;
+// "PATH", "input|output", "[WORD ...]", "[queue=N]", "[pull=true]"
+std::string UsageOf(const ChangeField& field) {
+  std::string value = field.kind == FieldKind::kFlag ? field.words[1] : field.shown;
+  if (field.kind == FieldKind::kText && !field.words.empty()) {
+    value = field.words.front();
+    for (auto each = field.words.begin() + 1; each != field.words.end(); ++each) value += "|" + *each;
+  }
+  if (field.kind == FieldKind::kTexts || field.kind == FieldKind::kSettings) value += " ...";
+  if (field.is_option() && field.kind != FieldKind::kSettings) value = field.option() + "=" + value;
+  if (field.place != ChangeField::Place::kWord) value = "[" + value + "]";
+  return field.word_before.empty() ? value : field.word_before + " " + value;
+}
+
+// "create port PATH input|output TYPE [description=TEXT]"
+std::string UsageOf(const ChangeForm& form) {
+  std::string usage = VerbOf(form);
+  for (const ChangeField& field : form.fields) usage += " " + UsageOf(field);
+  return usage + form.usage_note;
+}
+
+// "create port …", "create …": the longest of the verbs with which a line begins. nullptr: none.
+const ChangeForm* FormOf(const std::string& first, const std::string& second) {
+  const auto find = [](const std::string& name) {
+    const auto found = std::ranges::find(ChangeForms(), name, &ChangeForm::name);
+    return found != ChangeForms().end() ? &*found : nullptr;
   };
-  arguments.TakeOptions({"period", "priority", "on_overrun", "activation"}, read);
+  const ChangeForm* const longer = find(first + "_" + second);
+  return longer != nullptr || first.find('_') != std::string::npos ? longer : find(first);
 }
 
-std::string TakeDescription(Arguments& arguments) {
-  std::string description;
-  arguments.TakeOptions({"description"}, [&](const ChangeArgument& argument) {
-    if (argument.name() == "description") description = argument.value();
-    return argument.name() == "description";
-  });
-  return description;
+Error ErrorAt(const SourcePosition& position, std::string message, std::string hint) {
+  return {.message = std::move(message), .position = position, .hint = std::move(hint)};
 }
 
-std::vector<Setting> TakeSettings(Arguments& arguments) {
-  std::vector<Setting> settings;
-  arguments.TakeOptions({}, [&](const ChangeArgument& argument) {
-    settings.push_back({argument.name(), argument.value()});
-    return true;
-  });
-  return settings;
+// A text that is no list.
+Result<FieldValue> ReadValue(const ChangeField& field, const std::string& text, const SourcePosition& position) {
+  if (field.kind == FieldKind::kDuration) {
+    const auto duration = ParseDuration(text);
+    return duration ? Result<FieldValue>(*duration)
+                    : ErrorAt(position, duration.error().message, duration.error().hint);
+  }
+  if (field.kind == FieldKind::kCount) {
+    const auto number = NumberIn<std::uint64_t>(text);
+    if (number && *number <= field.most) return FieldValue(*number);
+    return ErrorAt(position, "'" + text + "' is not a count for '" + field.name + "'",
+                   "write a whole number from 0 to " + std::to_string(field.most));
+  }
+  const auto found = std::ranges::find(field.words, text);
+  if (!field.words.empty() && (found == field.words.end() || found->empty())) {
+    std::vector<std::string> words = field.words;
+    std::erase(words, "");
+    return ErrorAt(position, "'" + text + "' is none of the words that can stand here", NearestNameHint(text, words));
+  }
+  return field.kind == FieldKind::kFlag ? FieldValue(found != field.words.begin()) : FieldValue(text);
 }
 
-Change ReadCreate(Arguments& arguments) {
-  if (arguments.TakeIf("group")) {
-    return CreateGroup{arguments.Take("a path")};
-  }
-  if (arguments.TakeIf("thread")) {
-    AddThread change{.name = arguments.Take("a name")};
-    ReadThreadOptions(arguments, change.options);
-    return change;
-  }
-  if (arguments.TakeIf("port")) {
-    CreatePort change{.path = arguments.Take("a path"), .type = {}};
-    change.direction = arguments.TakeOneOf("'input' or 'output'", kDirections) == 0 ? Port::Direction::kInput
-                                                                                    : Port::Direction::kOutput;
-    change.type = arguments.Take("a data type");
-    change.description = TakeDescription(arguments);
-    return change;
-  }
-  if (arguments.TakeIf("parameter")) {
-    CreateParameter change{arguments.Take("a path"), {}};
-    change.targets = arguments.TakeWords("a parameter that it stands for");
-    change.description = TakeDescription(arguments);
-    return change;
-  }
-  CreateModule change{arguments.Take("a path"), arguments.Take("a module type")};
-  change.settings = TakeSettings(arguments);
-  return change;
-}
+// One change, argument by argument. The line must outlive it, and begin with the verb of the form.
+class LineReading {
+ public:
+  LineReading(const ChangeForm& form, const ChangeLine& line)
+      : form_(form), line_(line), at_(form.name.find('_') == std::string::npos ? 1 : 2), change_(form.make()) {}
 
-Change ReadConnect(Arguments& arguments) {
-  ConnectPorts change{arguments.Take("the output"), arguments.Take("the input")};
-  const ChangeArgument* on_full = nullptr;
-  const ChangeArgument* pull = nullptr;
-  arguments.TakeOptions({"queue", "on_full", "pull", "convert", "when", "late"}, [&](const ChangeArgument& argument) {
-    if (argument.name() == "queue") {
-      change.options.queue = arguments.ReadCount<std::size_t>(argument, kLongestQueue);
-    } else if (argument.name() == "on_full") {
-      on_full = &argument;
-      change.options.on_full = static_cast<OnFull>(arguments.Choose(argument, argument.value(), OnFullNames()));
-    } else if (argument.name() == "pull") {
-      pull = &argument;
-      change.options.pull = arguments.Choose(argument, argument.value(), kNoOrYes) == 1;
-    } else if (argument.name() == "late") {
-      change.options.late = arguments.Choose(argument, argument.value(), kNoOrYes) == 1;
-    } else if (argument.name() == "when") {
-      (void)arguments.Choose(argument, argument.value(), {"present"});
-      change.options.when_present = true;
-    } else if (argument.name() == "convert") {
-      change.options.convert = argument.value();
-    } else {
-      return false;
+  Result<Change> Read() {
+    for (const ChangeField& field : form_.fields) {
+      auto read = field.is_option() ? Result<void>() : ReadWord(field);
+      if (!read) return read.error();
     }
-    return true;
-  });
-  if (on_full != nullptr && change.options.queue == 0) {
-    arguments.Complain(on_full->position, "on_full has no meaning without a queue",
-                       "add queue=N with a count above 0, or leave out on_full");
-  }
-  if (change.options.pull && change.options.queue > 0) {
-    arguments.Complain(pull->position, "a connection that pulls cannot have a queue",
-                       "what is pulled is the newest value; leave out one of the two");
-  }
-  return change;
-}
-
-Change ReadReplace(Arguments& arguments) {
-  ReplaceModule change{arguments.Take("the path of a module"), {}};
-  arguments.Expect("with");
-  change.type = arguments.Take("a module type");
-  arguments.TakeOptions({}, [&](const ChangeArgument& argument) {
-    if (argument.name() == "probation") {
-      change.probation_cycles = arguments.ReadCount<std::uint64_t>(argument, kLongestProbation);
-    } else {
-      change.settings.push_back({argument.name(), argument.value()});
+    for (; at_ < line_.size(); ++at_) {
+      if (auto read = ReadOption(line_[at_]); !read) return read.error();
     }
-    return true;
-  });
-  return change;
-}
+    const auto conflict =
+        form_.check ? form_.check(change_, [&](auto field) { return PlaceOf(field) != nullptr; }) : std::nullopt;
+    if (!conflict) return std::move(change_);
+    return ErrorAt(PlaceOf(conflict->first)->position, conflict->second.message, conflict->second.hint);
+  }
 
-Change ReadCopy(Arguments& arguments) {
-  CopyElement change{arguments.Take("a path")};
-  if (!arguments.IsAtEnd()) change.name = arguments.Take("a name");
-  return change;
-}
+ private:
+  Result<const ChangeArgument*> Take(const std::string& missing) {
+    if (at_ < line_.size()) return &line_[at_++];
+    return ErrorAt(line_.back().position, missing + " is missing after '" + line_.back().text + "'",
+                   "write: " + UsageOf(form_));
+  }
+  Result<void> ReadWord(const ChangeField& field) {
+    if (!field.word_before.empty()) {
+      const auto word = Take("'" + field.word_before + "'");
+      if (!word) return word.error();
+      if ((*word)->text != field.word_before) {
+        return ErrorAt((*word)->position,
+                       "there should be '" + field.word_before + "' instead of '" + (*word)->text + "'",
+                       "write: " + UsageOf(form_));
+      }
+    }
+    if (at_ == line_.size() && field.place == ChangeField::Place::kOptionalWord) return {};
+    const auto word = Take(field.missing);
+    if (!word) return word.error();
+    if (field.kind != FieldKind::kTexts) return Set(field, (*word)->text, **word);
+    std::vector<std::string> texts{(*word)->text};
+    for (; at_ < line_.size() && !line_[at_].equals; ++at_) texts.push_back(line_[at_].text);
+    field.set(change_, std::move(texts));
+    return {};
+  }
+  Result<void> ReadOption(const ChangeArgument& argument) {
+    const std::string name = argument.name();
+    if (!argument.equals || name.empty()) {
+      return ErrorAt(argument.position, "'" + argument.text + "' is one word too many", "write: " + UsageOf(form_));
+    }
+    if (!places_.emplace(name, &argument).second) {
+      return ErrorAt(argument.position, "'" + name + "' is there twice", "leave one of them out");
+    }
+    std::vector<std::string> names;
+    const ChangeField* all = nullptr;
+    for (const ChangeField& field : form_.fields) {
+      if (!field.is_option()) continue;
+      if (field.kind == FieldKind::kSettings) {
+        all = &field;
+      } else if (field.option() == name) {
+        return Set(field, argument.value(), argument);
+      } else {
+        names.push_back(field.option());
+      }
+    }
+    if (all == nullptr) {
+      return ErrorAt(argument.position, "there is no option '" + name + "'", NearestNameHint(name, names));
+    }
+    auto settings = std::get<std::vector<Setting>>(all->get(change_));
+    settings.push_back({name, argument.value()});
+    all->set(change_, std::move(settings));
+    return {};
+  }
+  Result<void> Set(const ChangeField& field, const std::string& text, const ChangeArgument& argument) {
+    auto value = ReadValue(field, text, argument.position);
+    if (!value) return value.error();
+    field.set(change_, std::move(*value));
+    return {};
+  }
+  [[nodiscard]] const ChangeArgument* PlaceOf(std::string_view option) const {
+    const auto found = places_.find(option);
+    return found != places_.end() ? found->second : nullptr;
+  }
 
-Change ReadMove(Arguments& arguments) {
-  AssignToThread change{arguments.Take("a path"), {}};
-  arguments.Expect("to");
-  change.thread = arguments.Take("a thread");
-  return change;
-}
-
-Change ReadTag(Arguments& arguments) {
-  TagElement change{arguments.Take("a path"), {}};
-  if (!arguments.IsAtEnd()) change.tags = arguments.TakeWords("a tag");
-  return change;
-}
-
-Change ReadLog(Arguments& arguments) {
-  std::vector<std::string> levels(LogLevelNames().begin(), LogLevelNames().end());
-  levels.emplace_back("inherit");
-  LogElement change{arguments.Take("a path")};
-  const std::size_t level = arguments.TakeOneOf("a level", levels);
-  if (level + 1 < levels.size()) change.level = static_cast<LogLevel>(level);
-  return change;
-}
-
-Change ReadSchedule(Arguments& arguments) {
-  ScheduleThread change{.thread = arguments.Take("a thread")};
-  ReadThreadOptions(arguments, change);
-  return change;
-}
-
-// What words there are, and what they mean, the extension says.
-template <std::size_t kWords>
-Change ReadExtension(Arguments& arguments) {
-  ExtensionChange change{arguments.verb(), {}};
-  while (change.words.size() < kWords) change.words.push_back(arguments.Take("a path"));
-  change.settings = TakeSettings(arguments);
-  return change;
-}
-
-struct Verb {
-  const char *name, *usage;
-  Change (*read)(Arguments& arguments);
+  const ChangeForm& form_;
+  const ChangeLine& line_;
+  std::size_t at_;
+  Change change_;
+  std::map<std::string, const ChangeArgument*, std::less<>> places_;
 };
-constexpr std::array<Verb, 14> kVerbs{{
-    {"create",
-     "create [group] PATH TYPE [NAME=VALUE ...], or create port PATH input|output TYPE "
-     "[description=TEXT], or create parameter PATH PARAMETER ... [description=TEXT], or create thread NAME "
-     "[period=TIME] [activation=period|free_running|trigger] [priority=N]",
-     ReadCreate},
-    {"delete", "delete PATH", [](Arguments& a) -> Change { return DeleteElement{a.Take("a path")}; }},
-    {"connect",
-     "connect FROM[.PART] TO [queue=N] [on_full=drop_oldest|drop_newest|refuse] [pull=true] "
-     "[convert=NAME] [when=present] [late=true]",
-     ReadConnect},
-    {"disconnect", "disconnect FROM TO",
-     [](Arguments& a) -> Change {
-       return DisconnectPorts{a.Take("the output"), a.Take("the input")};
-     }},
-    {"set", "set PATH VALUE, with a VALUE that has blanks in quotation marks",
-     [](Arguments& a) -> Change {
-       return SetParameter{a.Take("the path of a parameter"), a.Take("a value")};
-     }},
-    {"replace", "replace PATH with TYPE [NAME=VALUE ...] [probation=CYCLES]", ReadReplace},
-    {"rename", "rename PATH NAME",
-     [](Arguments& a) -> Change {
-       return RenameElement{a.Take("a path"), a.Take("the new name")};
-     }},
-    {"copy", "copy PATH [NAME]", ReadCopy},
-    {"move", "move PATH to THREAD", ReadMove},
-    {"tag", "tag PATH [WORD ...]", ReadTag},
-    {"log", "log PATH debug|info|warning|error|off|inherit", ReadLog},
-    {"offer", "offer PORT [NAME=VALUE ...] [remove=true]", ReadExtension<1>},
-    {"take", "take TOPIC PORT [NAME=VALUE ...] [remove=true]", ReadExtension<2>},
-    {"schedule",
-     "schedule THREAD [period=TIME] [activation=period|free_running|trigger] [priority=N] [on_overrun=skip|catch_up]",
-     ReadSchedule},
-}};
 
 Result<Change> ReadChange(const ChangeLine& line) {
-  const ChangeArgument& first = line.front();
-  const auto verb = std::ranges::find(kVerbs, first.text, &Verb::name);
-  if (verb == kVerbs.end()) {
-    return Error{.message = "there is no change '" + first.text + "'",
-                 .position = first.position,
-                 .hint = NearestNameHint(first.text, NamesOf(kVerbs, &Verb::name))};
+  const std::string& first = line.front().text;
+  const ChangeForm* const form = FormOf(first, line.size() > 1 ? line[1].text : "");
+  if (form != nullptr) return LineReading(*form, line).Read();
+  std::vector<std::string> verbs = NamesOf(ChangeForms(), &ChangeForm::name);
+  std::erase_if(verbs, [](const std::string& each) { return each.find('_') != std::string::npos; });
+  return ErrorAt(line.front().position, "there is no change '" + first + "'", NearestNameHint(first, verbs));
+}
+
+std::string TextOf(const ChangeField& field, const FieldValue& value) {
+  if (const auto* const text = std::get_if<std::string>(&value)) return AsArgument(*text);
+  if (const auto* const count = std::get_if<std::uint64_t>(&value)) return std::to_string(*count);
+  if (const auto* const duration = std::get_if<Duration>(&value)) return DurationText(*duration);
+  if (const auto* const flag = std::get_if<bool>(&value)) return field.words[*flag ? 1 : 0];
+  return "";
+}
+
+// With a blank before each word.
+std::string WordsOf(const ChangeField& field, const FieldValue& value, bool is_usual) {
+  std::string text = field.word_before.empty() ? "" : " " + field.word_before;
+  if (const auto* const texts = std::get_if<std::vector<std::string>>(&value)) {
+    for (const std::string& each : *texts) text += " " + AsArgument(each);
+  } else if (const auto* const settings = std::get_if<std::vector<Setting>>(&value)) {
+    for (const Setting& each : *settings) text += " " + each.parameter + "=" + AsArgument(each.value);
+  } else if (field.place == ChangeField::Place::kWord) {
+    text += " " + TextOf(field, value);
+  } else if (!is_usual) {
+    text += " " + (field.is_option() ? field.option() + "=" : "") + TextOf(field, value);
   }
-  Arguments arguments(line, verb->usage);
-  Change change = verb->read(arguments);
-  arguments.End();
-  if (arguments.error()) return *arguments.error();
-  return change;
+  return text;
 }
 
 }  // namespace
@@ -254,6 +219,21 @@ PlacedChanges ParseChanges(std::string_view text, const SourcePosition& begins, 
     placed.positions.push_back(line.front().position);
   }
   return placed;
+}
+
+std::string ChangeText(const Change& change) {
+  const ChangeForm* const form = FormOf(change);
+  if (form == nullptr) return std::get<ExtensionChange>(change).verb;  // which nobody reads, nor carries out
+  const std::string verb = VerbOf(*form);
+  const Change usual = form->make();
+  std::string words;
+  for (const ChangeField& field : form->fields) {
+    const FieldValue value = field.get(change);
+    words += WordsOf(field, value, value == field.get(usual));
+  }
+  // Relative paths and absolute ones are the same; a module that is called "group" would be taken for one.
+  const bool is_verb = verb == form->name && FormOf(verb, words.substr(1, words.find(' ', 1) - 1)) != form;
+  return verb + (is_verb ? words.insert(1, "/") : words);
 }
 
 }  // namespace runnel

@@ -100,7 +100,7 @@ TEST_F(Changing, EachKindOfChangeIsReadAndADetailThatIsWrongIsNamed) {
   EXPECT_EQ(told({{"change", "connect"}, {"from", "/app/a/out"}, {"to", "/app/b/in"}, {"on_full", "refus"}}),
             "'connect': \"on_full\" cannot be 'refus'");
   EXPECT_EQ(told({{"change", "connect"}, {"from", "/a"}, {"to", "/b"}, {"queue", -1}}),
-            "'connect': \"queue\" must be a count, at most 1000000000");
+            "'connect': \"queue\" must be a count, at most 1000000");
   EXPECT_EQ(told({{"change", "connect"}, {"from", "/a"}, {"to", "/b"}, {"pull", 1}}),
             "'connect': \"pull\" must be true or false");
   EXPECT_EQ(told({{"change", "connect"}, {"from", "/app/a/out"}, {"to", "/app/b/in"}, {"pull", true}}),

@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/plugins/inspector/change_message.h"
+
 namespace runnel::internal {
 
 namespace {
@@ -55,6 +57,31 @@ TEST(ViewerMessage, SaysWhichMemberIsWrong) {
   const auto message = ParseViewerMessage(R"({"op":"watch","rate":"fast"})");
   ASSERT_FALSE(message);
   EXPECT_EQ(message.error().message, "'watch': \"rate\" must be a number, not below 0");
+}
+
+// What one reader or writer knows of a change, all do.
+TEST(ViewerMessage, EachChangeSaysTheSameAsATextAndAsJson) {
+  for (const ChangeForm& form : ChangeForms()) {
+    const auto json = JsonPart::Parse(test::ChangeMessage(form.example).dump());
+    ASSERT_TRUE(json) << form.name;
+    const auto change = ParseChange(*json);
+    ASSERT_TRUE(change) << form.name << ": " << change.error().ToString();
+    EXPECT_EQ(ChangeText(*change), form.example);
+    EXPECT_EQ(FormOf(*change), &form);
+  }
+}
+
+TEST(ViewerMessage, WhatAChangeLacksIsSaidAndNotMadeUp) {
+  const auto told = [](const char* text) {
+    const auto json = JsonPart::Parse(text);
+    const auto change = json ? ParseChange(*json) : json.error();
+    return change ? "" : change.error().message;
+  };
+  EXPECT_EQ(told(R"({"change":"create_port","path":"/a","type":"int"})"), "'create_port': \"direction\" is missing");
+  EXPECT_EQ(told(R"({"change":"take","topic":"/a"})"), "'take': \"port\" is missing");
+  EXPECT_EQ(told(R"({"change":"connect","from":"/a","to":"/b","queue":3,"pull":true})"),
+            "'connect': a connection that pulls cannot have a queue");
+  EXPECT_EQ(told(R"({"change":"tag","path":"/a","tags":"safety hidden"})"), "");
 }
 
 TEST(ViewerMessage, IsNotReadIntoDepths) {

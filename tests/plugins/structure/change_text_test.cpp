@@ -1,8 +1,11 @@
 #include "plugins/structure/change_text.h"
 
 #include <random>
+#include <set>
 
 #include <gmock/gmock.h>
+
+#include "plugins/structure/change_fields.h"
 
 namespace runnel::test {
 
@@ -208,6 +211,28 @@ TEST(ChangeText, TellsAllThatIsWrongAndReturnsTheRest) {
   const auto placed = ParseChanges("delet /a\ndelete /b\nset /a \"\ndelete /c", {}, diagnostics);
   EXPECT_THAT(diagnostics.errors(), SizeIs(2));
   EXPECT_THAT(placed.changes, SizeIs(2));
+}
+
+TEST(ChangeText, EachKindOfChangeHasAnExampleThatIsReadAndWrittenBack) {
+  std::set<std::size_t> kinds;
+  for (const ChangeForm& form : ChangeForms()) {
+    const ChangeSet changes = Parse(form.example);
+    ASSERT_THAT(changes, SizeIs(1)) << form.name;
+    kinds.insert(changes[0].index());
+    EXPECT_EQ(ChangeText(changes[0]), form.example);
+    EXPECT_EQ(FormOf(changes[0]), &form);
+  }
+  EXPECT_THAT(kinds, SizeIs(std::variant_size_v<Change>)) << "one has no form";
+}
+
+TEST(ChangeText, WhatToWriteIsMadeOfTheFields) {
+  EXPECT_THAT(ErrorOf("connect"), HasSubstr("write: connect FROM[.PART] TO [queue=N] "
+                                            "[on_full=drop_oldest|drop_newest|refuse] [pull=true] [convert=NAME] "
+                                            "[when=present] [late=true]"));
+  EXPECT_THAT(ErrorOf("create port"), HasSubstr("write: create port PATH input|output TYPE [description=TEXT]"));
+  EXPECT_THAT(ErrorOf("create parameter"), HasSubstr("create parameter PATH PARAMETER ... [description=TEXT]"));
+  EXPECT_THAT(ErrorOf("replace"), HasSubstr("replace PATH with TYPE [NAME=VALUE ...] [probation=CYCLES]"));
+  EXPECT_THAT(ErrorOf("tag"), HasSubstr("tag PATH [WORD ...]"));
 }
 
 namespace {

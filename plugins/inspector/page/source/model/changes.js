@@ -13,8 +13,8 @@ export const Change = {
   createThread: (path, options = {}) => ({ change: 'create_thread', path, ...options }),
   schedule: (path, options) => ({ change: 'schedule', path, ...options }),
   tag: (path, tags) => ({ change: 'tag', path, tags }),
-  offer: (path, settings) => ({ change: 'offer', words: [path], settings }),
-  take: (topic, path, settings) => ({ change: 'take', words: [topic, path], settings }),
+  offer: (path, settings) => ({ change: 'offer', port: path, settings }),
+  take: (topic, path, settings) => ({ change: 'take', topic, port: path, settings }),
   move: (path, thread) => ({ change: 'move', path, thread }),
 };
 
