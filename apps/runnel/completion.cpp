@@ -6,9 +6,12 @@
 #include <sstream>
 
 #include "apps/runnel/commands.h"
+#include "apps/runnel/control_command_line.h"
 #include "apps/runnel/meant_application.h"
 #include "core/base/nearest_name.h"
+#include "plugins/control/command_forms.h"
 #include "plugins/control/control_folder.h"
+#include "plugins/structure/change_fields.h"
 
 namespace runnel::program {
 
@@ -152,56 +155,73 @@ Candidates SettingsOf(ControlClient& client, const std::string& path) {
   return names;
 }
 
-// Which elements can be the word number `place` (from 0) after some commands.
+// What a word of a change can be; `words`: those before it.
+Candidates ProposeForChange(ControlClient& client, const ChangeForm& form, const Candidates& words) {
+  const std::size_t place = words.size() - (form.name.find('_') == std::string::npos ? 0 : 1);
+  const bool takes_settings = form.fields.front().proposal == Proposal::kModule && place >= 2;
+  if (takes_settings) return SettingsOf(client, words[0]);
+  const bool is_word = place < form.fields.size() && !form.fields[place].is_option();
+  switch (is_word ? form.fields[place].proposal : Proposal::kNothing) {
+    case Proposal::kNothing:
+      return {};
+    case Proposal::kPart:
+      return Paths(client, IsPart);
+    case Proposal::kModule:
+      return Paths(client, OfKind("module"));
+    case Proposal::kNewPath:
+      return NamesOf(Paths(client, OfKind("group")), [](const auto& each) { return each + '/'; });
+    case Proposal::kDeletable:
+      return Paths(client, [](const Element& each) { return IsPart(each) || each.is_interface; });
+    case Proposal::kSender:
+      return Paths(client, Sends);
+    case Proposal::kReceiver:
+      return form.name == "connect" ? Takers(client, words[0]) : Paths(client, Receives);
+    case Proposal::kParameter:
+      return Paths(client, OfKind("parameter"));
+    case Proposal::kValue:
+      return ValuesOf(client, words[0]);
+    case Proposal::kThread:
+      return Threads(client);
+    case Proposal::kModuleType:
+      return Types(client);
+  }
+  return {};
+}
+
+// Which elements can be the first word after some commands.
 struct Meant {
   std::vector<std::string_view> commands;
-  std::size_t place;
   std::function<bool(const Element&)> fits;
 };
 
 // What can be the last word after the command.
 Candidates Propose(ControlClient& client, const Candidates& plain) {
   const std::string& command = plain.front();
-  const std::size_t place = plain.size() - 2;
-  const std::vector<Meant> all{
-      {{"ls"}, 0, [](const Element&) { return true; }},
-      {{"offer", "connect", "disconnect"}, 0, Sends},
-      {{"take", "disconnect"}, 1, Receives},
-      {{"echo", "hz", "publish", "release", "block"}, 0, IsPort},
-      {{"call", "activities"}, 0, IsService},
-      {{"set"}, 0, OfKind("parameter")},
-      {{"get"}, 0, [](const Element& each) { return IsPort(each) || each.kind == "parameter"; }},
-      {{"rename", "copy", "restart", "tag", "move"}, 0, IsPart},
-      {{"pause", "resume"}, 0, [](const Element& each) { return IsPart(each) || each.kind == "thread"; }},
-      {{"delete"}, 0, [](const Element& each) { return IsPart(each) || each.is_interface; }},
-      {{"swap"}, 0, OfKind("module")}};
-  for (const Meant& each : all) {
-    if (each.place == place && std::ranges::count(each.commands, command) > 0) return Paths(client, each.fits);
-  }
+  const Candidates words(plain.begin() + 1, plain.end() - 1);
+  if (const ChangeForm* const change = FindChangeCommand(command, words))
+    return ProposeForChange(client, *change, words);
   if (command == "record") return Paths(client, Sends);
-  if (command == "move") return Threads(client);
-  if (command == "speed" && place == 0) return {"0", "0.5", "1", "2", "10"};
-  if (command == "create" && place == 0) {
-    return NamesOf(Paths(client, OfKind("group")), [](const auto& each) { return each + '/'; });
+  if (command == "call" && words.size() == 1) return ArgumentsOf(client, words[0]);
+  if (!words.empty()) return {};
+  const std::vector<Meant> all{
+      {{"ls"}, [](const Element&) { return true; }},
+      {{"echo", "hz", "publish", "release", "block"}, IsPort},
+      {{"call", "activities"}, IsService},
+      {{"get"}, [](const Element& each) { return IsPort(each) || each.kind == "parameter"; }},
+      {{"restart"}, IsPart},
+      {{"pause", "resume"}, [](const Element& each) { return IsPart(each) || each.kind == "thread"; }}};
+  for (const Meant& each : all) {
+    if (std::ranges::count(each.commands, command) > 0) return Paths(client, each.fits);
   }
-  if ((command == "create" || command == "swap") && place == 1) return Types(client);
-  if (command == "call" && place == 1) return ArgumentsOf(client, plain[1]);
-  if (command == "set" && place == 1) return ValuesOf(client, plain[1]);
-  if (command == "connect" && place == 1) return Takers(client, plain[1]);
-  if (command == "swap") return SettingsOf(client, plain[1]);
-  return {};
+  return command == "speed" ? Candidates{"0", "0.5", "1", "2", "10"} : Candidates{};
 }
 
 // The words that are no options; what follows an option that has a value is left out.
 Candidates WithoutOptions(const Candidates& words, std::string& application) {
-  static const Candidates kWithValue{
-      "--app",         "-n",      "--queue",       "--on-full", "--probation", "-o",         "--output",
-      "--compression", "--rate",  "--deadline",    "--convert", "--timeout",   "--topic",    "--as",
-      "--field",       "--frame", "--child_frame", "--qos",     "--sending",   "--strength", "--stamp",
-      "--exclusive",   "--live"};
+  const Candidates with_value = OptionsWithValue();
   Candidates plain;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (std::ranges::count(kWithValue, words[i]) > 0 && i + 1 < words.size()) {
+    if (std::ranges::count(with_value, words[i]) > 0 && i + 1 < words.size()) {
       if (words[i] == "--app") application = words[i + 1];
       ++i;
     } else if (!words[i].starts_with('-')) {

@@ -14,59 +14,14 @@
 #include "apps/runnel/meant_application.h"
 #include "apps/runnel/output.h"
 #include "core/xml/xml_document.h"
+#include "plugins/control/command_forms.h"
 #include "plugins/control/control_client.h"
 #include "plugins/control/control_folder.h"
 #include "plugins/control/protocol.h"
-#include "plugins/structure/change_arguments.h"
 
 namespace runnel::program {
 
 namespace {
-
-using internal::AsArgument;
-
-std::string SettingText(const std::string& word) {
-  const std::size_t equals = word.find('=');
-  if (equals == std::string::npos) return AsArgument(word);
-  return word.substr(0, equals + 1) + AsArgument(word.substr(equals + 1));
-}
-
-// The first words are paths and types, the others "name=value".
-std::string WordsText(const std::vector<std::string>& words, std::size_t plain) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    text += " " + (i < plain ? AsArgument(words[i]) : SettingText(words[i]));
-  }
-  return text;
-}
-
-std::string OptionsText(const ControlArguments& arguments) {
-  std::string text;
-  for (const auto& [name, value] : arguments.options) text += " " + name + "=" + AsArgument(value);
-  return text;
-}
-
-// What the command says in the language of changes; what is wrong with it is for the reader to say.
-std::optional<std::string> ChangeTextOf(const ControlArguments& arguments) {
-  const std::string& command = arguments.command;
-  const std::vector<std::string>& words = arguments.words;
-  if (command == "connect") return command + WordsText(words, 2) + OptionsText(arguments);
-  if (command == "swap") {
-    std::string text = "replace " + AsArgument(words[0]) + " with";
-    text += WordsText({words.begin() + 1, words.end()}, 1);
-    return text + OptionsText(arguments);
-  }
-  if (command == "move") return "move " + AsArgument(words[0]) + " to " + AsArgument(words[1]);
-  if (command == "create")
-    return command + WordsText(words, words[0] == "parameter" ? words.size() : words[0] == "port" ? 4 : 2);
-  if (command == "schedule") return command + WordsText(words, 1) + OptionsText(arguments);
-  if (command == "copy") return command + WordsText(words, 2);
-  if (command == "offer" || command == "take") return command + WordsText(words, words.size()) + OptionsText(arguments);
-  if (command == "set" || command == "disconnect" || command == "delete" || command == "rename" || command == "tag") {
-    return command + WordsText(words, words.size());
-  }
-  return {};
-}
 
 Result<std::string> ReadChanges(const std::string& file) {
   if (file == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
@@ -88,8 +43,9 @@ Result<void> RefuseEmptyWords(const ControlArguments& arguments) {
 
 Result<Request> RequestOf(const ControlArguments& arguments) {
   if (auto good = RefuseEmptyWords(arguments); !good) return good.error();
-  if (const auto change = ChangeTextOf(arguments)) {
-    Request request{.command = "change", .arguments = {}, .options = {}, .body = *change};
+  std::string change = ChangeTextOf(arguments.command, arguments.words, arguments.options);
+  if (!change.empty()) {
+    Request request{.command = "change", .arguments = {}, .options = {}, .body = std::move(change)};
     if (arguments.options.contains("yes")) request.options["yes"] = "yes";
     return request;
   }

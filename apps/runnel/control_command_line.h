@@ -28,6 +28,9 @@ class ControlCommandLine {
   std::deque<Entry> entries_;  // whose addresses the parser keeps
 };
 
+/// Of all of these commands: "-n", "--queue".
+[[nodiscard]] std::vector<std::string> OptionsWithValue();
+
 /// Lets numbers below 0 stand where a value is asked for: `runnel set /a/b -1`, which would be taken
 /// for an option.
 [[nodiscard]] std::vector<const char*> WithNegativeValues(int count, const char* const* words);

@@ -1,100 +1,98 @@
 #include "plugins/control/command.h"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <mutex>
 #include <vector>
 
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
 #include "plugins/command_service/request_table.h"
+#include "plugins/control/command_forms.h"
 
 namespace runnel {
 
 namespace {
 
+enum class Needs { kNothing, kPace, kScheduler };
+
+// Who makes a command that the service does not carry out; what words and options it has, its form says.
 struct CommandKind {
-  std::string name;
-  std::size_t least_arguments;
-  std::size_t most_arguments;
-  std::vector<std::string> options;
-  CommandMaker* make;
-  enum class Needs { kNothing, kPace, kScheduler } needs = Needs::kNothing;
+  std::string_view name;
+  CommandMaker* make = MakeServiceCommand;
+  Needs needs = Needs::kNothing;
 };
-using Needs = CommandKind::Needs;
+constexpr CommandKind kKinds[] = {{"ls", MakeListCommand},
+                                  {"paths", MakePathsCommand},
+                                  {"types", MakeTypesCommand},
+                                  {"get", MakeGetCommand},
+                                  {"echo", MakeEchoCommand},
+                                  {"hz", MakeRateCommand},
+                                  {"log", MakeLogCommand},
+                                  {"call", MakeCallCommand},
+                                  {"network", MakeNetworkCommand},
+                                  {"activities", MakeActivitiesCommand},
+                                  {"record", MakeRecordCommand},
+                                  {"pause", MakePauseCommand, Needs::kPace},
+                                  {"resume", MakeResumeCommand, Needs::kPace},
+                                  {"step", MakeStepCommand, Needs::kPace},
+                                  {"speed", MakeSpeedCommand, Needs::kPace},
+                                  {"top", MakeTopCommand, Needs::kScheduler},
+                                  {"profile", MakeProfileCommand, Needs::kScheduler},
+                                  {"latency", MakeLatencyCommand, Needs::kScheduler},
+                                  {"deadline", MakeDeadlineCommand, Needs::kScheduler}};
 
-constexpr std::size_t kMostPatterns = 1000;
-// Options that are either there, as "yes", or not.
-constexpr std::array kFlags{"long", "full", "follow", "yes", "config", "overwrite", "once", "all", "abort"};
-
-const std::vector<CommandKind>& Kinds() {
-  static const std::vector<CommandKind> kinds{
-      {"ls", 0, 1, {"long"}, MakeListCommand},
-      {"paths", 0, 0, {}, MakePathsCommand},
-      {"types", 0, 0, {}, MakeTypesCommand},
-      {"get", 1, 1, {"full"}, MakeGetCommand},
-      {"echo", 1, 1, {"count", "full"}, MakeEchoCommand},
-      {"hz", 1, 1, {"count"}, MakeRateCommand},
-      {"log", 0, 0, {"follow", "level"}, MakeLogCommand},
-      {"change", 0, 0, {"file", "yes"}, MakeServiceCommand},
-      {"undo", 0, 0, {}, MakeServiceCommand},
-      {"redo", 0, 0, {}, MakeServiceCommand},
-      {"save", 0, 1, {"config", "overwrite"}, MakeServiceCommand},
-      {"pause", 0, 1, {}, MakePauseCommand, Needs::kPace},
-      {"resume", 0, 1, {}, MakeResumeCommand, Needs::kPace},
-      {"step", 0, 1, {}, MakeStepCommand, Needs::kPace},
-      {"speed", 0, 1, {}, MakeSpeedCommand, Needs::kPace},
-      {"top", 0, 0, {"once", "count"}, MakeTopCommand, Needs::kScheduler},
-      {"profile", 0, 1, {}, MakeProfileCommand, Needs::kScheduler},
-      {"latency", 0, 3, {}, MakeLatencyCommand, Needs::kScheduler},
-      {"deadline", 0, 2, {}, MakeDeadlineCommand, Needs::kScheduler},
-      {"reload", 1, 1, {}, MakeServiceCommand},
-      {"restart", 0, 1, {}, MakeServiceCommand},
-      {"stop", 0, 0, {}, MakeServiceCommand},
-      {"release", 0, 1, {}, MakeServiceCommand},
-      {"block", 1, 1, {}, MakeServiceCommand},
-      {"quit", 0, 0, {}, MakeServiceCommand},
-      {"publish", 2, 2, {"rate", "deadline"}, MakeServiceCommand},
-      {"call", 1, 2, {"timeout"}, MakeCallCommand},
-      {"network", 0, 0, {}, MakeNetworkCommand},
-      {"activities", 0, 1, {"all", "abort"}, MakeActivitiesCommand},
-      {"record", 0, kMostPatterns, {"file", "count", "compression"}, MakeRecordCommand},
-  };
-  return kinds;
+CommandKind KindOf(const std::string& command) {
+  const auto* const found = std::ranges::find(kKinds, command, &CommandKind::name);
+  return found != std::end(kKinds) ? *found : CommandKind{command};
 }
 
-Result<void> CheckArguments(const Request& request, const CommandKind& kind) {
-  // In this version, what clients of before ask for.
-  if (kind.name == "stop" && !request.arguments.empty()) {
+// In this version, what clients of before ask for.
+Result<void> RefuseFormerWords(const Request& request) {
+  if (request.command == "stop" && !request.arguments.empty()) {
     return Error{.message = "'stop' has no path any more: it is the STOP of the robot",
                  .hint = "'pause PATH' leaves modules out of cycles, 'block PORT' stops one port"};
   }
-  if (kind.name == "publish" && request.Has("stop")) {
+  if (request.command == "publish" && request.Has("stop")) {
     return Error{.message = "'publish PORT stop=yes' is called otherwise now", .hint = "'block PORT'"};
   }
-  if (request.arguments.size() < kind.least_arguments) {
-    const bool lacks_value = kind.least_arguments > 1 && !request.arguments.empty();
-    return Error{.message = "'" + kind.name + "' wants " + (lacks_value ? "a value" : "a path")};
+  return {};
+}
+
+Result<void> CheckWords(const Request& request, const CommandForm& form) {
+  const std::vector<std::string>& words = request.arguments;
+  // The file of changes is read by the client.
+  const bool is_told = form.name == "change";
+  const std::size_t least = is_told ? 0 : form.least_words(), most = is_told ? 0 : form.most_words();
+  if (words.size() < least) {
+    const bool lacks_value = least > 1 && !words.empty();
+    return Error{.message = "'" + form.name + "' wants " + (lacks_value ? "a value" : "a path")};
   }
-  if (request.arguments.size() > kind.most_arguments) {
-    return Error{.message =
-                     "'" + request.arguments[kind.most_arguments] + "' is one word too many for '" + kind.name + "'"};
+  if (words.size() > most) {
+    return Error{.message = "'" + words[most] + "' is one word too many for '" + form.name + "'"};
   }
   // Only values may be empty texts.
-  const std::size_t words = kind.name == "publish" || kind.name == "call" ? 1 : request.arguments.size();
-  for (std::size_t i = 0; i < std::min(words, request.arguments.size()); ++i) {
-    if (request.arguments[i].empty()) return Error{.message = "'" + kind.name + "': one of its words is empty"};
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool is_value = i > 0 && i < form.words.size() && form.words[i].shown == "VALUE";
+    if (words[i].empty() && !is_value) return Error{.message = "'" + form.name + "': one of its words is empty"};
   }
+  if (!request.body.empty() && !is_told) return Error{.message = "'" + form.name + "' is one line only"};
+  return {};
+}
+
+Result<void> CheckOptions(const Request& request, const CommandForm& form) {
+  std::vector<CommandOption> options = form.options;
+  if (form.name == "change") options.push_back({"", "file", "", "FILE"});  // which the client has read
   for (const auto& [name, value] : request.options) {
-    if (std::ranges::count(kind.options, name) == 0) {
-      return Error{.message = "'" + kind.name + "' has no option '" + name + "'",
-                   .hint = NearestNameHint(name, kind.options)};
+    const auto option = std::ranges::find(options, name, &CommandOption::key);
+    if (option == options.end()) {
+      return Error{.message = "'" + form.name + "' has no option '" + name + "'",
+                   .hint = NearestNameHint(name, NamesOf(options, &CommandOption::key))};
     }
-    if (value != "yes" && std::ranges::find(kFlags, name) != kFlags.end()) {
-      return Error{.message = "'" + kind.name + "': " + name + " is 'yes' or left out, not '" + value + "'"};
+    if (value != "yes" && option->shown.empty()) {
+      return Error{.message = "'" + form.name + "': " + name + " is 'yes' or left out, not '" + value + "'"};
     }
   }
-  if (!request.body.empty() && kind.name != "change") return Error{.message = "'" + kind.name + "' is one line only"};
   return {};
 }
 
@@ -104,25 +102,28 @@ CommandResult MakeCommand(const std::string& text, CommandService& service, Task
                           std::optional<Time> asked) {
   const auto request = Request::Parse(text);
   if (!request) return request.error();
-  const auto kind = std::ranges::find(Kinds(), request->command, &CommandKind::name);
-  if (kind == Kinds().end()) {
+  const auto form = std::ranges::find(CommandForms(), request->command, &CommandForm::name);
+  if (form == CommandForms().end()) {
     return Error{.message = "there is no command '" + request->command + "'",
-                 .hint = NearestNameHint(request->command, NamesOf(Kinds(), &CommandKind::name))};
+                 .hint = NearestNameHint(request->command, NamesOf(CommandForms(), &CommandForm::name))};
   }
-  if (auto good = CheckArguments(*request, *kind); !good) return good.error();
+  if (auto good = RefuseFormerWords(*request); !good) return good.error();
+  if (auto good = CheckWords(*request, *form); !good) return good.error();
+  if (auto good = CheckOptions(*request, *form); !good) return good.error();
+  const CommandKind kind = KindOf(form->name);
   const ServedApplication& application = service.application();
-  if ((kind->needs == Needs::kPace && application.pace == nullptr) ||
-      (kind->needs == Needs::kScheduler && application.scheduler == nullptr)) {
-    return Error{.message = kind->needs == Needs::kPace
+  if ((kind.needs == Needs::kPace && application.pace == nullptr) ||
+      (kind.needs == Needs::kScheduler && application.scheduler == nullptr)) {
+    return Error{.message = kind.needs == Needs::kPace
                                 ? "the program that runs this application cannot pause it or change its speed"
                                 : "the program that runs this application does not say how it does so"};
   }
   // The service looks by itself, and knows what a change is of.
-  if (kind->make != MakeServiceCommand && LetsMove(kind->name)) {
+  if (kind.make != MakeServiceCommand && LetsMove(form->name)) {
     const auto known = application.runtime.robot_stop().CheckIsKnown({.asked = asked, .requests = {}});
     if (!known) return known.error();
   }
-  return kind->make(*request, {application, service, tasks, asked});
+  return kind.make(*request, {application, service, tasks, asked});
 }
 
 std::optional<ControlCode> Command::Continue(Answer& answer) {
