@@ -95,25 +95,6 @@ auto Calling(Told (Application::*act)(Words...)) {
   };
 }
 
-void Apply(const Open& open, const ChangeSet& changes) {
-  Check(WithoutGil(open, [&](Application& application) { return application.Apply(changes); }));
-}
-
-std::vector<Setting> SettingsOf(const Words& words) {
-  std::vector<Setting> settings;
-  for (const auto& [name, value] : words) settings.push_back({name, value});
-  return settings;
-}
-
-// With groups above it.
-void Create(const Open& open, const std::vector<std::string>& groups, const std::string& path, const std::string& type,
-            const Words& settings) {
-  ChangeSet changes;
-  for (const std::string& each : groups) changes.push_back(CreateGroup{each});
-  if (!type.empty()) changes.push_back(CreateModule{path, type, SettingsOf(settings)});
-  Apply(open, changes);
-}
-
 // The call that runs the application, or starts and ends it: one at a time.
 class Running {
  public:
@@ -194,16 +175,6 @@ void Quit(const Open& open) {
   WithoutGil([&] { use->Stop(); });
 }
 
-void Connect(const Open& open, const std::string& from, const std::string& to, std::size_t queue,
-             const std::string& on_full, bool pull, bool late, const std::string& convert) {
-  ConnectOptions options{.queue = queue, .pull = pull, .late = late, .convert = convert};
-  const auto& names = OnFullNames();
-  const auto named = std::find(names.begin(), names.end(), on_full);
-  if (named == names.end()) throw py::value_error("on_full is one of drop_oldest, drop_newest, refuse");
-  options.on_full = static_cast<OnFull>(named - names.begin());
-  Apply(open, {ConnectPorts{from, to, options}});
-}
-
 // Of a component's attribute its next cycle says what it makes of the value, if something else than this thread runs cycles.
 void Set(const Open& open, const std::string& path, const std::string& value) {
   Checked(WithoutGil(open, [&](Application& application) { return application.Set(path, value); }));
@@ -219,13 +190,6 @@ void Set(const Open& open, const std::string& path, const std::string& value) {
   }
 }
 
-void AddThreadOf(const Open& open, const std::string& name, std::optional<double> period, int priority) {
-  ThreadOptions options{.priority = priority};
-  if (period) options.period = FromSeconds(*period);
-  if (!period) options.activation = ThreadOptions::Activation::kTrigger;
-  Apply(open, {AddThread{name, options}});
-}
-
 }  // namespace
 
 void Step(const Open& open, std::uint64_t cycles) {
@@ -237,25 +201,9 @@ void Step(const Open& open, std::uint64_t cycles) {
 void BindApplication(py::module_& module) {
   py::class_<OpenApplication, Open>(module, "Application")
       .def(py::init(&Load))
-      .def("_create", Create)
-      .def("_connect", Connect)
-      .def("_thread", AddThreadOf)
-      .def("_assign",
-           [](const Open& open, const std::string& path, const std::string& thread) {
-             Apply(open, {AssignToThread{path, thread}});
-           })
-      .def("_disconnect",
-           [](const Open& open, const std::string& from, const std::string& to) {
-             Apply(open, {DisconnectPorts{from, to}});
-           })
-      .def("_delete", [](const Open& open, const std::string& path) { Apply(open, {DeleteElement{path}}); })
       .def("_apply",
            [](const Open& open, const std::string& text) {
              Check(WithoutGil(open, [&](Application& it) { return it.Apply(text); }));
-           })
-      .def("_swap",
-           [](const Open& open, const std::string& path, const std::string& type, const Words& settings) {
-             Check(WithoutGil(open, [&](Application& it) { return it.Swap(path, type, SettingsOf(settings)); }));
            })
       .def("_undo", Calling(&Application::Undo))
       .def("_redo", Calling(&Application::Redo))

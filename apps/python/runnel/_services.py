@@ -3,6 +3,7 @@
 import inspect
 
 from runnel import _extension
+from runnel._text import text_of
 
 _NAMES = {bool: "bool", int: "int64", float: "double", str: "string"}
 
@@ -96,8 +97,6 @@ class Client:
 
 def described(service):
     """The same for the extension, with the defaults as text."""
-    from runnel.application import text_of
-
     said = dict(service.said)
     if isinstance(service, Service):
         said["are_optional"] = len(said["defaults"]) == len(said["names"])

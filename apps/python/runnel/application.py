@@ -9,9 +9,9 @@ import traceback
 import weakref
 from typing import NamedTuple
 
-import numpy
-
 from runnel import _extension
+from runnel._changes import Changes
+from runnel._text import text_of
 
 _open = weakref.WeakValueDictionary()  # by their ids; valuerefs() may be asked for while others open and close
 
@@ -81,30 +81,6 @@ def check_kind(kind, kinds=KINDS):
         raise ValueError(f"there is no kind '{kind}'; there is {', '.join(kinds)}")
 
 
-def text_of(value, inside=False):
-    """The text format of a value.
-
-    >>> text_of({"x": 1, "name": "a b", "list": [1.5, True]})
-    '{x: 1, name: "a b", list: [1.5, true]}'
-    """
-    if isinstance(value, bool) or isinstance(value, numpy.bool_):
-        return "true" if value else "false"
-    if isinstance(value, str):
-        if not inside:
-            return value
-        escaped = value.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n").replace("\t", "\\t").replace("\r", "\\r")
-        return f'"{escaped}"'
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{name}: {text_of(each, True)}" for name, each in value.items()) + "}"
-    if isinstance(value, numpy.ndarray):
-        return text_of(value.tolist())
-    if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(text_of(each, True) for each in value) + "]"
-    if isinstance(value, (numpy.integer, numpy.floating)):
-        return repr(value.item())
-    return str(value) if isinstance(value, _extension.Value) else repr(value)
-
-
 def _given(path):
     """The path, or None for all; what is empty by mistake is not all."""
     if path == "":
@@ -124,15 +100,6 @@ def _port(path):
 
 def _words(values):
     return [(str(name), text_of(value)) for name, value in values.items()]
-
-
-def _type_text(type):
-    """A module type by its name, or a class in Python."""
-    if isinstance(type, str):
-        return type
-    from runnel import _modules
-
-    return _modules.type_of(type)
 
 
 def _options(settings=None, clock="", speed=None, paused=False, control=False, configurations=(), plugin_folders=(),
@@ -191,7 +158,7 @@ def replay(recording, file, ports=(), begin=None, end=None, **options):
     return Application("file", _meant(file), "", *arguments)
 
 
-class Application(_extension.Application):
+class Application(_extension.Application, Changes):
     """A running application: made by load(), load_text(), compose() or replay().
 
     Paths may leave out the name of the application, and of ports and parameters the group: ``/robot/planner/twist``.
@@ -232,53 +199,12 @@ class Application(_extension.Application):
         self._close()
         self._readers.clear()
 
-    # Composing and changing it.
-
-    def create(self, path, type, /, **parameters):
-        """A module at `path`, of a type by name ("planning/bug2") or of a class in Python; makes the groups above."""
-        self._create_below(path, _type_text(type), parameters)
-
-    def group(self, path):
-        """An empty group."""
-        self._create_below(path, "", {})
-
-    def _create_below(self, path, type, parameters):
-        # With the groups that are not there yet.
-        root = "/" + self.name
-        whole = path if (path + "/").startswith(root + "/") else root + "/" + path.lstrip("/")
-        parts = whole.split("/")
-        wanted = ["/".join(parts[:i]) for i in range(3, len(parts) + (type == ""))]
-        there = {each for each, kind, _ in self._paths() if kind in ("group", "module")} if len(wanted) > (type == "") else ()
-        self._create([each for each in wanted if each == whole or each not in there], whole, type, _words(parameters))
-
-    def connect(self, source, *sinks, queue=0, on_full="drop_oldest", pull=False, late=False, convert=""):
-        """Lets values flow from a port (or a part of its values, "/world/pose.x") to others.
-
-        queue -- how many values may wait, 0: only the newest counts; on_full -- drop_oldest, drop_newest or refuse.
-        """
-        for sink in sinks:
-            self._connect(source, sink, queue, on_full, pull, late, convert)
-
-    def disconnect(self, source, sink):
-        """Ends a connection."""
-        self._disconnect(source, sink)
+    # Changing it, beside the methods of Changes.
 
     def delete(self, path):
         """Deletes an element, with all below it."""
         self._readers.clear()  # what undo() would look for
-        self._delete(path)
-
-    def thread(self, name, period=None, priority=0):
-        """A thread container that runs every `period` (s), or, without, when data comes. The first runs what is assigned to none."""
-        self._thread(name, period, priority)
-
-    def assign(self, path, thread):
-        """Has what is at or below `path` run by a thread; "" takes that back."""
-        self._assign(path, thread)
-
-    def swap(self, path, type, /, **parameters):
-        """Puts a module of another type, or of the same anew, in the place of one: connections, values, state go over."""
-        self._swap(path, _type_text(type), _words(parameters))
+        super().delete(path)
 
     def apply(self, text):
         """Changes as text, all or none: "connect /a/out /b/in; set /b/gain 2"."""

@@ -13,7 +13,9 @@ import time
 import weakref
 
 from runnel import _extension
-from runnel.application import _STOP, KINDS, _port, check_kind, text_of
+from runnel._changes import Changes
+from runnel._text import quoted, text_of
+from runnel.application import _STOP, KINDS, _port, check_kind
 
 
 def _folder():
@@ -27,21 +29,16 @@ def _folder():
     return folder
 
 
-def _argument(text):
-    escaped = str(text).replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n").replace("\t", "\\t").replace("\r", "\\r")
-    return f'"{escaped}"'
-
-
 def _words(text):
     """The name=value of a line, as the terminal's language has them."""
     escaped = {"n": "\n", "t": "\t", "r": "\r"}
     found = re.findall(r'(\w+)=(?:"((?:[^"\\]|\\.)*)"|(\S*))', text)
-    return {name: plain or re.sub(r"\\(.)", lambda each: escaped.get(each[1], each[1]), quoted) for name, quoted, plain in found}
+    return {name: plain or re.sub(r"\\(.)", lambda each: escaped.get(each[1], each[1]), marked) for name, marked, plain in found}
 
 
 def _request(command, arguments, options, body):
-    words = [command] + [_argument(each) for each in arguments]
-    words += [f"{name}={_argument(value)}" for name, value in options.items() if value is not None]
+    words = [command] + [quoted(each) for each in arguments]
+    words += [f"{name}={quoted(value)}" for name, value in options.items() if value is not None]
     payload = " ".join(words).encode() + (b"\n" + body.encode() if body else b"")
     return b"request %d\n%s\n" % (len(payload), payload)
 
@@ -167,7 +164,7 @@ def connect(application="", timeout=30.0):
     return Remote(fits[0], there[fits[0]], timeout)
 
 
-class Remote:
+class Remote(Changes):
     """A running application in another process: the same words as runnel.Application.
 
     Whatever ends a request before its answer is there (a time-out, Ctrl-C) closes the connection, and the next request
@@ -305,32 +302,11 @@ class Remote:
 
     def set(self, path, value):
         """Sets a parameter."""
-        self.apply(f"set {_argument(path)} {_argument(text_of(value))}")
+        self.apply(f"set {quoted(path)} {quoted(text_of(value))}")
 
     def apply(self, text):
         """Changes as text, all or none."""
         return self.ask("change", body=text)
-
-    def create(self, path, type, /, **parameters):
-        """A module of a registered type."""
-        self.apply(" ".join(["create", _argument(path), _argument(type)] + _settings(parameters)))
-
-    def swap(self, path, type, /, **parameters):
-        """Puts a module of another type, or of the same anew, in the place of one."""
-        self.apply(" ".join(["replace", _argument(path), "with", _argument(type)] + _settings(parameters)))
-
-    def connect(self, source, *sinks, queue=0):
-        """Lets values flow from a port to others."""
-        for sink in sinks:
-            self.apply(f"connect {_argument(source)} {_argument(sink)}" + (f" queue={queue}" if queue else ""))
-
-    def disconnect(self, source, sink):
-        """Ends a connection."""
-        self.apply(f"disconnect {_argument(source)} {_argument(sink)}")
-
-    def delete(self, path):
-        """Deletes an element, with all below it."""
-        self.apply(f"delete {_argument(path)}")
 
     def undo(self):
         """Takes the last change back."""
@@ -458,10 +434,6 @@ async def _receive(reader):
         raise _extension.Error("the application has gone")
     payload = await reader.readexactly(int(head[1]) + 1)
     return head[0], payload[:-1]
-
-
-def _settings(parameters):
-    return [f"{name}={_argument(text_of(value))}" for name, value in parameters.items()]
 
 
 class _Recording:
