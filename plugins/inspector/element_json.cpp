@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <functional>
 
 #include "core/element/attempt.h"
 #include "core/element/configurable.h"
@@ -143,20 +142,6 @@ void AddOther(const FrameworkElement& element, const ElementSurroundings& around
   if (thread != nullptr) json.Add("thread", thread->name());
 }
 
-void Mix(std::uint64_t more, std::uint64_t& hash) {
-  hash = (hash ^ more) * 0x9e3779b97f4a7c15U;
-  hash ^= hash >> 29U;
-}
-void Mix(std::string_view text, std::uint64_t& hash) { Mix(std::hash<std::string_view>{}(text), hash); }
-
-void MixAwaited(const std::vector<const LateConnection*>& awaited, std::uint64_t& hash) {
-  for (const LateConnection* each : awaited) {
-    Mix(each->from, hash);
-    Mix(each->to, hash);
-    Mix(*each->waits_for, hash);
-  }
-}
-
 }  // namespace
 
 std::string ElementJson(const FrameworkElement& element, const ElementSurroundings& around) {
@@ -174,42 +159,6 @@ std::string ElementJson(const FrameworkElement& element, const ElementSurroundin
       AddOther(element, around, json);
     }
   });
-}
-
-std::uint64_t ElementFingerprint(const FrameworkElement& element, const ElementSurroundings& around) {
-  std::uint64_t hash = element.id();
-  if (element.kind() == ElementKind::kPort) {
-    const auto* const port = dynamic_cast<const Port*>(&element);
-    if (port == nullptr) return hash;
-    Mix(port->is_set_by_hand() || port->is_set_by_hand(Port::Setter::kRule) ? 1 : 0, hash);
-    Mix((port->is_driving() ? 1 : 0) + (port->is_blocked() ? 2 : 0) + (MovesSomething(*port) ? 4 : 0), hash);
-    Mix(BoundsText(port->limits()), hash);
-    MixAwaited(AwaitedBy(*port), hash);
-    return hash;
-  }
-  if (IsPaused(element, around)) Mix(1, hash);
-  if (const auto* const thread = dynamic_cast<const ThreadContainer*>(&element)) {
-    const ThreadOptions options = thread->options();
-    Mix(static_cast<std::uint64_t>(options.period.count()), hash);
-    Mix(static_cast<std::uint64_t>(options.priority) + 2, hash);
-    Mix(static_cast<std::uint64_t>(options.activation), hash);
-    return hash;
-  }
-  if (element.kind() == ElementKind::kParameter) {
-    if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
-      Mix(ParameterText(*parameter), hash);
-    }
-    return hash;
-  }
-  Mix(TagsText(element), hash);
-  Mix(ThreadName(element, around), hash);
-  Mix(FailureOf(element, around), hash);
-  const bool is_application =
-      element.kind() == ElementKind::kGroup && element.parent() != nullptr && element.parent()->parent() == nullptr;
-  if (is_application) MixAwaited(AwaitedBelow(element), hash);
-  const ThreadContainer* const own = OwnThread(element);
-  Mix(own != nullptr ? own->id() : 0, hash);
-  return hash;
 }
 
 std::string ConnectionJson(const Connection& connection) {

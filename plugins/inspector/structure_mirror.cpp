@@ -129,12 +129,12 @@ void StructureMirror::BeginWalk() {
 }
 
 void StructureMirror::Visit(const FrameworkElement& element) {
-  const std::uint64_t fingerprint = Fingerprint(element);
+  Entry entry = Describe(element);
   const auto known = entries_.find(element.id());
   if (known != entries_.end()) known->second.walk = walks_;
-  if (known == entries_.end() || known->second.fingerprint != fingerprint) {
-    found_.news.emplace_back(element.id(), Describe(element, fingerprint));
-  }
+  const bool is_news =
+      known == entries_.end() || known->second.json != entry.json || known->second.connections != entry.connections;
+  if (is_news) found_.news.emplace_back(element.id(), std::move(entry));
   found_.order.push_back(element.id());
   switch (element.kind()) {
     case ElementKind::kPort: {
@@ -158,26 +158,8 @@ void StructureMirror::Visit(const FrameworkElement& element) {
   }
 }
 
-std::uint64_t StructureMirror::Fingerprint(const FrameworkElement& element) const {
-  std::uint64_t hash = ElementFingerprint(element, around_);
-  if (element.kind() != ElementKind::kPort) return hash;
-  for (const Connection& each : dynamic_cast<const Port&>(element).outgoing()) {
-    if (IsObserver(*each.to)) continue;
-    hash = hash * 31 + each.to->id();
-    hash = hash * 31 + each.options.queue * 8 + static_cast<std::uint64_t>(each.options.on_full) * 2 +
-           static_cast<std::uint64_t>(each.options.pull);
-    hash = hash * 31 + std::hash<std::string>{}(each.options.part + ' ' + each.options.convert) +
-           (each.options.when_present ? 2U : 0U) + (each.options.late ? 1U : 0U);
-  }
-  return hash;
-}
-
-StructureMirror::Entry StructureMirror::Describe(const FrameworkElement& element, std::uint64_t fingerprint) const {
-  Entry entry{.path = element.path(),
-              .json = ElementJson(element, around_),
-              .connections = {},
-              .fingerprint = fingerprint,
-              .walk = walks_};
+StructureMirror::Entry StructureMirror::Describe(const FrameworkElement& element) const {
+  Entry entry{.path = element.path(), .json = ElementJson(element, around_), .connections = {}, .walk = walks_};
   if (const auto* const port = dynamic_cast<const Port*>(&element)) {
     for (const Connection& each : port->outgoing()) {
       if (IsObserver(*each.to)) continue;
@@ -237,11 +219,10 @@ void StructureMirror::SweepParameters() {
   for (std::size_t i = 0; i < seen_.parameters.size() && (i % kStride != 0 || !is_late()); ++i) {
     const FrameworkElement& parameter = *seen_.parameters[next_parameter_];
     next_parameter_ = (next_parameter_ + 1) % seen_.parameters.size();
-    const std::uint64_t fingerprint = Fingerprint(parameter);
+    std::string json = ElementJson(parameter, around_);
     Entry& entry = entries_[parameter.id()];
-    if (entry.fingerprint == fingerprint) continue;
-    entry.fingerprint = fingerprint;
-    entry.json = ElementJson(parameter, around_);
+    if (entry.json == json) continue;
+    entry.json = std::move(json);
     difference.elements.push_back(entry.json);
   }
   Tell(std::move(difference));

@@ -33,9 +33,6 @@ struct ElementSurroundings {
 
 /// The element as the protocol has it: {"path":…,"kind":…,…}. Under the structure lock.
 [[nodiscard]] std::string ElementJson(const FrameworkElement& element, const ElementSurroundings& around);
-/// A number that is another one if ElementJson() of the same element would be (or most probably so):
-/// quicker. Under the structure lock.
-[[nodiscard]] std::uint64_t ElementFingerprint(const FrameworkElement& element, const ElementSurroundings& around);
 
 /// {"from":…,"to":…,…}. Under the structure lock.
 [[nodiscard]] std::string ConnectionJson(const Connection& connection);
@@ -97,8 +94,7 @@ class StructureMirror {
     std::string path;
     std::string json;
     std::vector<std::string> connections;
-    std::uint64_t fingerprint = 0;  // of both
-    std::uint64_t walk = 0;         // the number of the one that has seen it last
+    std::uint64_t walk = 0;  // the number of the one that has seen it last
   };
   struct Difference {
     std::vector<std::string> gone;      // paths
@@ -120,8 +116,7 @@ class StructureMirror {
   bool LookOn();
   void BeginWalk();
   void Visit(const FrameworkElement& element);
-  [[nodiscard]] Entry Describe(const FrameworkElement& element, std::uint64_t fingerprint) const;
-  [[nodiscard]] std::uint64_t Fingerprint(const FrameworkElement& element) const;
+  [[nodiscard]] Entry Describe(const FrameworkElement& element) const;
   void SweepParameters();
   void NoteFaults();
   void NoteThreads();

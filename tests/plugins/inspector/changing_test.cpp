@@ -57,6 +57,20 @@ TEST_F(Changing, LogLevelsAreSetAndToldToAllViewers) {
   EXPECT_THAT(wrong["errors"][0]["message"], HasSubstr("debug"));
 }
 
+TEST_F(Changing, TagsOfAnyElementReachAllViewers) {
+  Start();
+  Viewer viewer = View();
+  Viewer other = View();
+  other.Next("structure");
+  for (const std::string path : {"/app/a", "/app/a/output/out", "/app/a/parameter/speed"}) {
+    EXPECT_EQ(viewer.Change({"tag " + path + " loud new"})["ok"], true);
+    const Json told = other.Next("structure_change");
+    ASSERT_EQ(told["elements"].size(), 1U) << told.dump();
+    EXPECT_EQ(told["elements"][0]["path"], path);
+    EXPECT_EQ(told["elements"][0]["tags"], "loud new");
+  }
+}
+
 TEST_F(Changing, WordsThatAreNoneAreToldWithTheNearest) {
   Start();
   const Json reply =
