@@ -9,7 +9,7 @@
 #include "apps/runnel/control_command_line.h"
 #include "apps/runnel/meant_application.h"
 #include "core/base/nearest_name.h"
-#include "plugins/control/command_forms.h"
+#include "plugins/control/change_commands.h"
 #include "plugins/control/control_folder.h"
 #include "plugins/structure/change_fields.h"
 
@@ -161,31 +161,22 @@ Candidates ProposeForChange(ControlClient& client, const ChangeForm& form, const
   const bool takes_settings = form.fields.front().proposal == Proposal::kModule && place >= 2;
   if (takes_settings) return SettingsOf(client, words[0]);
   const bool is_word = place < form.fields.size() && !form.fields[place].is_option();
-  switch (is_word ? form.fields[place].proposal : Proposal::kNothing) {
-    case Proposal::kNothing:
-      return {};
-    case Proposal::kPart:
-      return Paths(client, IsPart);
-    case Proposal::kModule:
-      return Paths(client, OfKind("module"));
-    case Proposal::kNewPath:
-      return NamesOf(Paths(client, OfKind("group")), [](const auto& each) { return each + '/'; });
-    case Proposal::kDeletable:
-      return Paths(client, [](const Element& each) { return IsPart(each) || each.is_interface; });
-    case Proposal::kSender:
-      return Paths(client, Sends);
-    case Proposal::kReceiver:
-      return form.name == "connect" ? Takers(client, words[0]) : Paths(client, Receives);
-    case Proposal::kParameter:
-      return Paths(client, OfKind("parameter"));
-    case Proposal::kValue:
-      return ValuesOf(client, words[0]);
-    case Proposal::kThread:
-      return Threads(client);
-    case Proposal::kModuleType:
-      return Types(client);
-  }
-  return {};
+  static const std::map<Proposal, std::function<Candidates(ControlClient&, const Candidates&)>> kProposals{
+      {Proposal::kPart, [](auto& c, auto&) { return Paths(c, IsPart); }},
+      {Proposal::kModule, [](auto& c, auto&) { return Paths(c, OfKind("module")); }},
+      {Proposal::kNewPath,
+       [](auto& c, auto&) { return NamesOf(Paths(c, OfKind("group")), [](auto& each) { return each + '/'; }); }},
+      {Proposal::kDeletable,
+       [](auto& c, auto&) { return Paths(c, [](auto& each) { return IsPart(each) || each.is_interface; }); }},
+      {Proposal::kSender, [](auto& c, auto&) { return Paths(c, Sends); }},
+      {Proposal::kReceiver, [](auto& c, auto&) { return Paths(c, Receives); }},
+      {Proposal::kParameter, [](auto& c, auto&) { return Paths(c, OfKind("parameter")); }},
+      {Proposal::kValue, [](auto& c, auto& before) { return ValuesOf(c, before[0]); }},
+      {Proposal::kThread, [](auto& c, auto&) { return Threads(c); }},
+      {Proposal::kModuleType, [](auto& c, auto&) { return Types(c); }}};
+  if (form.name == "connect" && place == 1) return Takers(client, words[0]);
+  const auto found = kProposals.find(is_word ? form.fields[place].proposal : Proposal::kNothing);
+  return found != kProposals.end() ? found->second(client, words) : Candidates{};
 }
 
 // Which elements can be the first word after some commands.

@@ -14,7 +14,7 @@
 #include "apps/runnel/meant_application.h"
 #include "apps/runnel/output.h"
 #include "core/xml/xml_document.h"
-#include "plugins/control/command_forms.h"
+#include "plugins/control/change_commands.h"
 #include "plugins/control/control_client.h"
 #include "plugins/control/control_folder.h"
 #include "plugins/control/protocol.h"

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "plugins/control/command_forms.h"
+#include "plugins/control/change_commands.h"
 
 namespace runnel::program {
 
@@ -17,27 +17,37 @@ std::vector<CommandForm> ControlCommands() {
   for (const auto& forms : {CommandForms(), ChangeCommands()}) {
     std::ranges::copy_if(forms, std::back_inserter(all), [](const CommandForm& each) { return !each.help.empty(); });
   }
-  all.push_back({"Looking at a running application", "ps", "ps", "lists the running applications, and how they are"});
-  all.push_back({"", "complete", "complete ls /robot", "for the completion of shells"});
+  all.push_back({.name = "ps",
+                 .group = "Looking at a running application",
+                 .help = "lists the running applications, and how they are",
+                 .example = "ps"});
+  all.push_back({.name = "complete", .help = "for the completion of shells", .example = "complete ls /robot"});
   return all;
 }
 
-void AddWord(CLI::App& command, const CommandWord& form, std::string& word, std::vector<std::string>& all) {
-  CLI::Option* const added =
-      form.most > 1 ? command.add_option(form.name, all, form.help) : command.add_option(form.name, word, form.help);
-  added->required(form.is_needed)->type_name(form.shown);
+// "-l,--long"; "--on-full" of "on_full".
+std::string FlagsOf(const FieldForm& field) {
+  std::string flags = "--" + field.name;
+  std::ranges::replace(flags, '_', '-');
+  return field.flags.empty() ? flags : field.flags;
 }
 
-void AddOption(CLI::App& command, const CommandOption& form, std::map<std::string, std::string>& said) {
-  if (form.shown.empty()) {
+void AddWord(CLI::App& command, const FieldForm& form, std::string& word, std::vector<std::string>& all) {
+  CLI::Option* const added = form.kind == FieldForm::Kind::kTexts ? command.add_option(form.name, all, form.help)
+                                                                  : command.add_option(form.name, word, form.help);
+  added->required(form.place == FieldForm::Place::kWord)->type_name(form.shown);
+}
+
+void AddOption(CLI::App& command, const FieldForm& form, std::map<std::string, std::string>& said) {
+  if (form.kind == FieldForm::Kind::kFlag) {
     command.add_flag_callback(
-        form.names, [&said, form] { said[form.key] = form.said; }, form.help);
+        FlagsOf(form), [&said, key = form.option(), yes = form.words[1]] { said[key] = yes; }, form.help);
     return;
   }
-  const auto take = [&said, key = form.key](const std::string& value) { said[key] = value; };
-  CLI::Option* const added = command.add_option_function<std::string>(form.names, take, form.help);
-  added->required(form.is_needed)->type_name(form.shown);
-  if (form.key == "count") added->check(CLI::Range(1, 1'000'000'000));
+  const auto take = [&said, key = form.option()](const std::string& value) { said[key] = value; };
+  CLI::Option* const added = command.add_option_function<std::string>(FlagsOf(form), take, form.help);
+  added->required(form.name == "file")->type_name(form.shown);  // into which is recorded
+  if (form.name == "count") added->check(CLI::Range(1, 1'000'000'000));
 }
 
 }  // namespace
@@ -55,11 +65,12 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
           ->check([](const std::string& text) { return text.empty() ? "an empty word names no application" : ""; });
     }
     command.prefix_command(arguments.command == "complete");
-    arguments.words.resize(form.words.size());  // whose addresses the parser keeps, too
-    for (std::size_t i = 0; i < form.words.size(); ++i) {
-      AddWord(command, form.words[i], arguments.words[i], arguments.words);
+    arguments.words.resize(form.fields.size());  // whose addresses the parser keeps, too
+    for (std::size_t i = 0; i < form.fields.size(); ++i) {
+      const FieldForm& each = form.fields[i];
+      each.is_option() ? AddOption(command, each, arguments.options)
+                       : AddWord(command, each, arguments.words[i], arguments.words);
     }
-    for (const CommandOption& each : form.options) AddOption(command, each, arguments.options);
   }
 }
 
@@ -81,8 +92,8 @@ std::optional<ControlArguments> ControlCommandLine::Parsed() const {
 std::vector<std::string> OptionsWithValue() {
   std::vector<std::string> names{"--app"};
   for (const CommandForm& form : ControlCommands()) {
-    for (const CommandOption& each : form.options) {
-      std::istringstream all(each.shown.empty() ? "" : each.names);
+    for (const FieldForm& each : form.fields) {
+      std::istringstream all(each.is_option() && each.kind != FieldForm::Kind::kFlag ? FlagsOf(each) : "");
       for (std::string name; std::getline(all, name, ',');) names.push_back(name);
     }
   }

@@ -1,47 +1,42 @@
 #pragma once
 
 #include <map>
-#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "core/base/result.h"
 #include "plugins/command_service/command_request.h"
+#include "plugins/structure/change_fields.h"
 
 namespace runnel {
 
-/// One named part of a described request.
-struct RequestField {
-  enum class Kind {
-    kText,      ///< any; not empty
-    kValue,     ///< any
-    kNumber,    ///< a number, or the text of one
-    kDuration,  ///< "300ms", or a number of seconds
-  };
-  std::string_view name;
-  Kind kind = Kind::kText;
-  bool is_required = false;
-  std::string_view help = {};
-};
+using RequestField = FieldForm;
 
-/// A request that clients offer under the same name: the terminal, pages, Foxglove, Python.
-struct DescribedRequest {
-  std::string_view name;
-  std::span<const RequestField> fields;
-  std::string_view role;  ///< that a client needs: "look", "drive", "change"
+/// A request that clients offer under the same name: the terminal, pages, Foxglove, Python; or the terminal alone.
+struct RequestForm {
+  std::string name;
+  std::string group;  ///< in the help of the terminal; "": it is no command there
+  std::string role;   ///< that a client needs: "look", "drive", "change"; "": only the terminal has it
   /// Whether something may move by it, and not only stop: then it is refused if STOP was pressed or released after it was
   /// asked for (CommandService::Begin()).
-  bool lets_move;
-  std::string_view help;     ///< one line
-  std::string_view example;  ///< as words of the terminal; required fields without their names
+  bool lets_move = false;
+  std::string help = {};     ///< one line
+  std::string example = {};  ///< as words of the terminal
+  std::vector<RequestField> fields = {};
   /// That a client needs for the whole application, where that is less: who drives may have all of it stand still, but not
   /// leave out one module, which may be what keeps the robot from colliding. "": as `role`.
-  std::string_view role_of_whole = {};
+  std::string role_of_whole = {};
 };
+using DescribedRequest = RequestForm;
+using CommandForm = RequestForm;
 
-/// All of them. Static.
-[[nodiscard]] std::span<const DescribedRequest> RequestTable();
+/// The commands of the terminal that are requests of the same name: the command line is made of it. Static.
+[[nodiscard]] const std::vector<CommandForm>& CommandForms();
+
+/// Those that all clients have. Static.
+[[nodiscard]] const std::vector<DescribedRequest>& RequestTable();
 /// Errors: there is no such request, with the nearest name.
 [[nodiscard]] Result<const DescribedRequest*> FindRequest(std::string_view name);
 

@@ -1,62 +1,54 @@
-// The commands of the terminal that are changes, as the table of changes describes them.
+#include "plugins/control/change_commands.h"
 
 #include <algorithm>
-#include <map>
 #include <sstream>
 
-#include "plugins/control/command_forms.h"
 #include "plugins/structure/change_arguments.h"
-#include "plugins/structure/change_fields.h"
 
 namespace runnel {
 
 namespace {
 
 using internal::AsArgument;
-using FieldKind = ChangeField::Kind;
+using FieldKind = FieldForm::Kind;
 
 const std::string& CommandOf(const ChangeForm& form) { return form.command.empty() ? form.name : form.command; }
 
-// Of any name: they are words of the command, "name=value".
-bool AreWords(const ChangeField& field) { return field.kind == FieldKind::kSettings && field.known.empty(); }
-
-// "--on-full" of "on_full"; what an extension calls something is left as it is.
-CommandOption OptionOf(const ChangeField& field, bool is_own = true) {
-  std::string name = "--" + field.name;
-  if (is_own) std::ranges::replace(name, '_', '-');
-  const bool is_flag = field.kind == FieldKind::kFlag;
-  return {name, field.option(), field.help, is_flag ? "" : field.shown, is_flag ? field.words[1] : ""};
-}
-
-CommandForm CommandFormOf(const ChangeForm& change) {
-  CommandForm form{"Changing it", CommandOf(change), "", change.help};
-  CommandWord all{"words", change.words_help, ""};
-  for (const ChangeField& field : change.fields) {
-    const bool is_list = field.kind == FieldKind::kTexts || AreWords(field);
-    if (!field.is_option() || is_list) {
-      const bool is_needed = field.place == ChangeField::Place::kWord;
-      form.words.push_back({field.name, field.help, field.shown, is_needed});
-      all.shown += (all.shown.empty() ? "" : " ") +
-                   (field.kind == FieldKind::kTexts ? "[" + field.shown + " ...]" : field.shown);
-    } else if (field.kind != FieldKind::kSettings) {
-      form.options.push_back(OptionOf(field));
-    }
-    for (const ChangeField& each : field.known) form.options.push_back(OptionOf(each, false));
-    if (is_list) all.most = 1000;
-  }
-  if (all.most > 1) form.words = {all};
-  if (change.name == "delete") {
-    form.options.push_back({"--yes", "yes", "also if it is the whole application, which ends its run"});
-  }
-  // As the command line has it: "connect /a/out /b/in --queue 10".
-  form.example = form.name;
+// As the command line has it: "connect /a/out /b/in --queue 10".
+std::string ExampleOf(const ChangeForm& change, const std::vector<FieldForm>& fields) {
+  std::string example = CommandOf(change);
   std::istringstream words(change.example.substr(change.name.size()));
   for (std::string word; words >> word;) {
-    if (std::ranges::count(change.fields, word, &ChangeField::word_before) > 0) continue;
-    const auto option = std::ranges::find(form.options, word.substr(0, word.find('=')), &CommandOption::key);
-    form.example += " " + (option == form.options.end() ? word : option->names + " " + word.substr(word.find('=') + 1));
+    const std::string name = word.substr(0, word.find('='));
+    if (std::ranges::count(change.fields, word, &FieldForm::word_before) > 0) continue;
+    const bool is_option = name != word && std::ranges::count(fields, name, &FieldForm::name) > 0;
+    example += is_option ? " --" + name + " " + word.substr(name.size() + 1) : " " + word;
   }
-  return form;
+  return example;
+}
+
+// Where a change takes any number of words, the command takes all of them as one list; settings of any name are words.
+CommandForm CommandFormOf(const ChangeForm& change) {
+  FieldForm all{.name = "words", .help = change.words_help, .kind = FieldKind::kTexts};
+  std::vector<FieldForm> words, options;
+  for (const FieldForm& field : change.fields) {
+    options.insert(options.end(), field.known.begin(), field.known.end());
+    const bool is_option = field.is_option() && field.kind != FieldKind::kSettings;
+    if (is_option || field.known.empty()) (is_option ? options : words).push_back(field);
+    if (is_option || !field.known.empty()) continue;
+    all.shown +=
+        (all.shown.empty() ? "" : " ") + (field.kind == FieldKind::kTexts ? "[" + field.shown + " ...]" : field.shown);
+  }
+  if (!change.words_help.empty()) words = {all};
+  words.insert(words.end(), options.begin(), options.end());
+  if (change.name == "delete") {
+    words.push_back({.name = "yes",
+                     .help = "also if it is the whole application, which ends its run",
+                     .place = FieldForm::Place::kOption,
+                     .kind = FieldKind::kFlag,
+                     .words = {"", "yes"}});
+  }
+  return {CommandOf(change), "Changing it", "", change.lets_move, change.help, ExampleOf(change, options), words};
 }
 
 }  // namespace
@@ -92,7 +84,7 @@ std::string ChangeTextOf(std::string_view command, const std::vector<std::string
     text[end] = ' ';
     ++word;
   }
-  for (const ChangeField& field : form->fields) {
+  for (const FieldForm& field : form->fields) {
     if (field.is_option()) break;
     if (!field.word_before.empty()) text += " " + field.word_before;
     if (word != words.end()) text += " " + AsArgument(*word++);

@@ -8,7 +8,6 @@
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
 #include "plugins/command_service/request_table.h"
-#include "plugins/control/command_forms.h"
 
 namespace runnel {
 
@@ -22,25 +21,16 @@ struct CommandKind {
   CommandMaker* make = MakeServiceCommand;
   Needs needs = Needs::kNothing;
 };
-constexpr CommandKind kKinds[] = {{"ls", MakeListCommand},
-                                  {"paths", MakePathsCommand},
-                                  {"types", MakeTypesCommand},
-                                  {"get", MakeGetCommand},
-                                  {"echo", MakeEchoCommand},
-                                  {"hz", MakeRateCommand},
-                                  {"log", MakeLogCommand},
-                                  {"call", MakeCallCommand},
-                                  {"network", MakeNetworkCommand},
-                                  {"activities", MakeActivitiesCommand},
-                                  {"record", MakeRecordCommand},
-                                  {"pause", MakePauseCommand, Needs::kPace},
-                                  {"resume", MakeResumeCommand, Needs::kPace},
-                                  {"step", MakeStepCommand, Needs::kPace},
-                                  {"speed", MakeSpeedCommand, Needs::kPace},
-                                  {"top", MakeTopCommand, Needs::kScheduler},
-                                  {"profile", MakeProfileCommand, Needs::kScheduler},
-                                  {"latency", MakeLatencyCommand, Needs::kScheduler},
-                                  {"deadline", MakeDeadlineCommand, Needs::kScheduler}};
+// clang-format off
+constexpr CommandKind kKinds[] = {
+    {"ls", MakeListCommand}, {"paths", MakePathsCommand}, {"types", MakeTypesCommand}, {"get", MakeGetCommand},
+    {"echo", MakeEchoCommand}, {"hz", MakeRateCommand}, {"log", MakeLogCommand}, {"call", MakeCallCommand},
+    {"network", MakeNetworkCommand}, {"activities", MakeActivitiesCommand}, {"record", MakeRecordCommand},
+    {"pause", MakePauseCommand, Needs::kPace}, {"resume", MakeResumeCommand, Needs::kPace},
+    {"step", MakeStepCommand, Needs::kPace}, {"speed", MakeSpeedCommand, Needs::kPace},
+    {"top", MakeTopCommand, Needs::kScheduler}, {"profile", MakeProfileCommand, Needs::kScheduler},
+    {"latency", MakeLatencyCommand, Needs::kScheduler}, {"deadline", MakeDeadlineCommand, Needs::kScheduler}};
+// clang-format on
 
 CommandKind KindOf(const std::string& command) {
   const auto* const found = std::ranges::find(kKinds, command, &CommandKind::name);
@@ -59,40 +49,51 @@ Result<void> RefuseFormerWords(const Request& request) {
   return {};
 }
 
-Result<void> CheckWords(const Request& request, const CommandForm& form) {
+Result<void> CheckWords(const Request& request, const std::vector<FieldForm>& fields) {
   const std::vector<std::string>& words = request.arguments;
-  // The file of changes is read by the client.
-  const bool is_told = form.name == "change";
-  const std::size_t least = is_told ? 0 : form.least_words(), most = is_told ? 0 : form.most_words();
+  std::size_t least = 0, most = 0;
+  for (const FieldForm& each : fields) {
+    least += each.place == FieldForm::Place::kWord ? 1 : 0;
+    if (!each.is_option()) most += each.kind == FieldForm::Kind::kTexts ? each.most : 1;
+  }
   if (words.size() < least) {
     const bool lacks_value = least > 1 && !words.empty();
-    return Error{.message = "'" + form.name + "' wants " + (lacks_value ? "a value" : "a path")};
+    return Error{.message = "'" + request.command + "' wants " + (lacks_value ? "a value" : "a path")};
   }
   if (words.size() > most) {
-    return Error{.message = "'" + words[most] + "' is one word too many for '" + form.name + "'"};
+    return Error{.message = "'" + words[most] + "' is one word too many for '" + request.command + "'"};
   }
   // Only values may be empty texts.
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool is_value = i > 0 && i < form.words.size() && form.words[i].shown == "VALUE";
-    if (words[i].empty() && !is_value) return Error{.message = "'" + form.name + "': one of its words is empty"};
+    const bool is_value = i > 0 && fields[std::min(i, fields.size() - 1)].shown == "VALUE";
+    if (words[i].empty() && !is_value) return Error{.message = "'" + request.command + "': one of its words is empty"};
   }
-  if (!request.body.empty() && !is_told) return Error{.message = "'" + form.name + "' is one line only"};
   return {};
 }
 
-Result<void> CheckOptions(const Request& request, const CommandForm& form) {
-  std::vector<CommandOption> options = form.options;
-  if (form.name == "change") options.push_back({"", "file", "", "FILE"});  // which the client has read
+Result<void> CheckOptions(const Request& request, std::vector<FieldForm> options) {
+  std::erase_if(options, [](const FieldForm& each) { return !each.is_option(); });
   for (const auto& [name, value] : request.options) {
-    const auto option = std::ranges::find(options, name, &CommandOption::key);
+    const auto option = std::ranges::find(options, name, &FieldForm::name);
     if (option == options.end()) {
-      return Error{.message = "'" + form.name + "' has no option '" + name + "'",
-                   .hint = NearestNameHint(name, NamesOf(options, &CommandOption::key))};
+      return Error{.message = "'" + request.command + "' has no option '" + name + "'",
+                   .hint = NearestNameHint(name, NamesOf(options, &FieldForm::name))};
     }
-    if (value != "yes" && option->shown.empty()) {
-      return Error{.message = "'" + form.name + "': " + name + " is 'yes' or left out, not '" + value + "'"};
+    if (value != "yes" && option->kind == FieldForm::Kind::kFlag) {
+      return Error{.message = "'" + request.command + "': " + name + " is 'yes' or left out, not '" + value + "'"};
     }
   }
+  return {};
+}
+
+Result<void> CheckRequest(const Request& request, const CommandForm& form) {
+  if (auto good = RefuseFormerWords(request); !good) return good;
+  std::vector<FieldForm> fields = form.fields;
+  const bool has_body = form.name == "change";  // its file has been read by the client
+  if (has_body) fields.front().place = FieldForm::Place::kOption;
+  if (auto good = CheckWords(request, fields); !good) return good;
+  if (auto good = CheckOptions(request, fields); !good) return good;
+  if (!request.body.empty() && !has_body) return Error{.message = "'" + form.name + "' is one line only"};
   return {};
 }
 
@@ -107,9 +108,7 @@ CommandResult MakeCommand(const std::string& text, CommandService& service, Task
     return Error{.message = "there is no command '" + request->command + "'",
                  .hint = NearestNameHint(request->command, NamesOf(CommandForms(), &CommandForm::name))};
   }
-  if (auto good = RefuseFormerWords(*request); !good) return good.error();
-  if (auto good = CheckWords(*request, *form); !good) return good.error();
-  if (auto good = CheckOptions(*request, *form); !good) return good.error();
+  if (auto good = CheckRequest(*request, *form); !good) return good.error();
   const CommandKind kind = KindOf(form->name);
   const ServedApplication& application = service.application();
   if ((kind.needs == Needs::kPace && application.pace == nullptr) ||

@@ -39,12 +39,12 @@ concept HasWords = requires(T value) {
 };
 
 template <typename T>
-constexpr ChangeField::Kind KindOf() {
-  if constexpr (std::is_same_v<T, bool>) return ChangeField::Kind::kFlag;
-  if constexpr (std::is_same_v<T, Duration>) return ChangeField::Kind::kDuration;
-  if constexpr (std::is_same_v<T, Words>) return ChangeField::Kind::kTexts;
-  if constexpr (std::is_same_v<T, std::vector<Setting>>) return ChangeField::Kind::kSettings;
-  return std::is_integral_v<T> ? ChangeField::Kind::kCount : ChangeField::Kind::kText;
+constexpr FieldForm::Kind KindOf() {
+  if constexpr (std::is_same_v<T, bool>) return FieldForm::Kind::kFlag;
+  if constexpr (std::is_same_v<T, Duration>) return FieldForm::Kind::kDuration;
+  if constexpr (std::is_same_v<T, Words>) return FieldForm::Kind::kTexts;
+  if constexpr (std::is_same_v<T, std::vector<Setting>>) return FieldForm::Kind::kSettings;
+  return std::is_integral_v<T> ? FieldForm::Kind::kCount : FieldForm::Kind::kText;
 }
 
 // What a member says, and back: enumerators are words, whole numbers counts.
@@ -57,7 +57,7 @@ template <typename T>
 FieldValue ValueOf(const T& member) {
   if constexpr (HasWords<T>) {
     return WordsOf(member)[static_cast<std::size_t>(member)];
-  } else if constexpr (KindOf<T>() == ChangeField::Kind::kCount) {
+  } else if constexpr (KindOf<T>() == FieldForm::Kind::kCount) {
     return static_cast<std::uint64_t>(member);
   } else {
     return member;
@@ -67,7 +67,7 @@ template <typename T>
 void Put(T& member, FieldValue value) {
   if constexpr (HasWords<T>) {
     member = static_cast<T>(std::ranges::find(WordsOf(member), std::get<std::string>(value)) - WordsOf(member).begin());
-  } else if constexpr (KindOf<T>() == ChangeField::Kind::kCount) {
+  } else if constexpr (KindOf<T>() == FieldForm::Kind::kCount) {
     member = static_cast<T>(std::get<std::uint64_t>(value));
   } else {
     member = std::get<T>(std::move(value));
@@ -100,12 +100,12 @@ auto& MemberAt(T& object, First first, Rest... rest) {
 
 // A field that is a member of a change, or of a member of it.
 template <auto First, auto... Rest>
-ChangeField Member(ChangeField field) {
+FieldForm Member(FieldForm field) {
   using Said = decltype(OwnerOf(First));
   using T = typename decltype(AsOptional(MemberAt(std::declval<Said&>(), First, Rest...)))::value_type;
-  field.kind = HasWords<T> ? ChangeField::Kind::kText : KindOf<T>();
+  field.kind = HasWords<T> ? FieldForm::Kind::kText : KindOf<T>();
   if constexpr (HasWords<T>) field.words = WordsOf(T{});
-  if (field.kind == ChangeField::Kind::kFlag) field.words = {"false", "true"};
+  if (field.kind == FieldForm::Kind::kFlag) field.words = {"false", "true"};
   field.get = [](const Change& change) { return ValueOf(MemberAt(std::get<Said>(change), First, Rest...)); };
   field.set = [](Change& change, FieldValue value) {
     Put(MemberAt(std::get<Said>(change), First, Rest...), std::move(value));

@@ -17,7 +17,7 @@ namespace {
 using internal::AsArgument;
 using internal::ChangeArgument;
 using internal::ChangeLine;
-using FieldKind = ChangeField::Kind;
+using FieldKind = FieldForm::Kind;
 
 // "create port" of "create_port"
 std::string VerbOf(const ChangeForm& form) {
@@ -27,7 +27,7 @@ std::string VerbOf(const ChangeForm& form) {
 }
 
 // "PATH", "input|output", "[WORD ...]", "[queue=N]", "[pull=true]"
-std::string UsageOf(const ChangeField& field) {
+std::string UsageOf(const FieldForm& field) {
   std::string value = field.kind == FieldKind::kFlag ? field.words[1] : field.shown;
   if (field.kind == FieldKind::kText && !field.words.empty()) {
     value = field.words.front();
@@ -35,14 +35,14 @@ std::string UsageOf(const ChangeField& field) {
   }
   if (field.kind == FieldKind::kTexts || field.kind == FieldKind::kSettings) value += " ...";
   if (field.is_option() && field.kind != FieldKind::kSettings) value = field.option() + "=" + value;
-  if (field.place != ChangeField::Place::kWord) value = "[" + value + "]";
+  if (field.place != FieldForm::Place::kWord) value = "[" + value + "]";
   return field.word_before.empty() ? value : field.word_before + " " + value;
 }
 
 // "create port PATH input|output TYPE [description=TEXT]"
 std::string UsageOf(const ChangeForm& form) {
   std::string usage = VerbOf(form);
-  for (const ChangeField& field : form.fields) usage += " " + UsageOf(field);
+  for (const FieldForm& field : form.fields) usage += " " + UsageOf(field);
   return usage + form.usage_note;
 }
 
@@ -61,7 +61,7 @@ Error ErrorAt(const SourcePosition& position, std::string message, std::string h
 }
 
 // A text that is no list.
-Result<FieldValue> ReadValue(const ChangeField& field, const std::string& text, const SourcePosition& position) {
+Result<FieldValue> ReadValue(const FieldForm& field, const std::string& text, const SourcePosition& position) {
   if (field.kind == FieldKind::kDuration) {
     const auto duration = ParseDuration(text);
     return duration ? Result<FieldValue>(*duration)
@@ -89,7 +89,7 @@ class LineReading {
       : form_(form), line_(line), at_(form.name.find('_') == std::string::npos ? 1 : 2), change_(form.make()) {}
 
   Result<Change> Read() {
-    for (const ChangeField& field : form_.fields) {
+    for (const FieldForm& field : form_.fields) {
       auto read = field.is_option() ? Result<void>() : ReadWord(field);
       if (!read) return read.error();
     }
@@ -103,22 +103,22 @@ class LineReading {
   }
 
  private:
+  [[nodiscard]] Error Wrong(const ChangeArgument& argument, std::string message) const {
+    return ErrorAt(argument.position, std::move(message), "write: " + UsageOf(form_));
+  }
   Result<const ChangeArgument*> Take(const std::string& missing) {
     if (at_ < line_.size()) return &line_[at_++];
-    return ErrorAt(line_.back().position, missing + " is missing after '" + line_.back().text + "'",
-                   "write: " + UsageOf(form_));
+    return Wrong(line_.back(), missing + " is missing after '" + line_.back().text + "'");
   }
-  Result<void> ReadWord(const ChangeField& field) {
+  Result<void> ReadWord(const FieldForm& field) {
     if (!field.word_before.empty()) {
       const auto word = Take("'" + field.word_before + "'");
       if (!word) return word.error();
       if ((*word)->text != field.word_before) {
-        return ErrorAt((*word)->position,
-                       "there should be '" + field.word_before + "' instead of '" + (*word)->text + "'",
-                       "write: " + UsageOf(form_));
+        return Wrong(**word, "there should be '" + field.word_before + "' instead of '" + (*word)->text + "'");
       }
     }
-    if (at_ == line_.size() && field.place == ChangeField::Place::kOptionalWord) return {};
+    if (at_ == line_.size() && field.place == FieldForm::Place::kOptionalWord) return {};
     const auto word = Take(field.missing);
     if (!word) return word.error();
     if (field.kind != FieldKind::kTexts) return Set(field, (*word)->text, **word);
@@ -130,14 +130,14 @@ class LineReading {
   Result<void> ReadOption(const ChangeArgument& argument) {
     const std::string name = argument.name();
     if (!argument.equals || name.empty()) {
-      return ErrorAt(argument.position, "'" + argument.text + "' is one word too many", "write: " + UsageOf(form_));
+      return Wrong(argument, "'" + argument.text + "' is one word too many");
     }
     if (!places_.emplace(name, &argument).second) {
       return ErrorAt(argument.position, "'" + name + "' is there twice", "leave one of them out");
     }
     std::vector<std::string> names;
-    const ChangeField* all = nullptr;
-    for (const ChangeField& field : form_.fields) {
+    const FieldForm* all = nullptr;
+    for (const FieldForm& field : form_.fields) {
       if (!field.is_option()) continue;
       if (field.kind == FieldKind::kSettings) {
         all = &field;
@@ -155,7 +155,7 @@ class LineReading {
     all->set(change_, std::move(settings));
     return {};
   }
-  Result<void> Set(const ChangeField& field, const std::string& text, const ChangeArgument& argument) {
+  Result<void> Set(const FieldForm& field, const std::string& text, const ChangeArgument& argument) {
     auto value = ReadValue(field, text, argument.position);
     if (!value) return value.error();
     field.set(change_, std::move(*value));
@@ -182,7 +182,7 @@ Result<Change> ReadChange(const ChangeLine& line) {
   return ErrorAt(line.front().position, "there is no change '" + first + "'", NearestNameHint(first, verbs));
 }
 
-std::string TextOf(const ChangeField& field, const FieldValue& value) {
+std::string TextOf(const FieldForm& field, const FieldValue& value) {
   if (const auto* const text = std::get_if<std::string>(&value)) return AsArgument(*text);
   if (const auto* const count = std::get_if<std::uint64_t>(&value)) return std::to_string(*count);
   if (const auto* const duration = std::get_if<Duration>(&value)) return DurationText(*duration);
@@ -191,13 +191,13 @@ std::string TextOf(const ChangeField& field, const FieldValue& value) {
 }
 
 // With a blank before each word.
-std::string WordsOf(const ChangeField& field, const FieldValue& value, bool is_usual) {
+std::string WordsOf(const FieldForm& field, const FieldValue& value, bool is_usual) {
   std::string text = field.word_before.empty() ? "" : " " + field.word_before;
   if (const auto* const texts = std::get_if<std::vector<std::string>>(&value)) {
     for (const std::string& each : *texts) text += " " + AsArgument(each);
   } else if (const auto* const settings = std::get_if<std::vector<Setting>>(&value)) {
     for (const Setting& each : *settings) text += " " + each.parameter + "=" + AsArgument(each.value);
-  } else if (field.place == ChangeField::Place::kWord) {
+  } else if (field.place == FieldForm::Place::kWord) {
     text += " " + TextOf(field, value);
   } else if (!is_usual) {
     text += " " + (field.is_option() ? field.option() + "=" : "") + TextOf(field, value);
@@ -227,7 +227,7 @@ std::string ChangeText(const Change& change) {
   const std::string verb = VerbOf(*form);
   const Change usual = form->make();
   std::string words;
-  for (const ChangeField& field : form->fields) {
+  for (const FieldForm& field : form->fields) {
     const FieldValue value = field.get(change);
     words += WordsOf(field, value, value == field.get(usual));
   }

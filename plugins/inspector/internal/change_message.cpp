@@ -13,7 +13,7 @@ namespace runnel::internal {
 
 namespace {
 
-using FieldKind = ChangeField::Kind;
+using FieldKind = FieldForm::Kind;
 
 template <typename T>
 FieldValue ValueOf(std::optional<T> said) {
@@ -42,7 +42,7 @@ FieldValue SettingsIn(JsonMembers& members, const std::string& name) {
   return settings;
 }
 
-FieldValue WordIn(JsonMembers& members, const ChangeField& field) {
+FieldValue WordIn(JsonMembers& members, const FieldForm& field) {
   const auto word = members.Text(field.name);
   if (word && !field.words.empty() && std::ranges::count(field.words, *word) == 0) {
     members.Complain("\"" + field.name + "\" cannot be '" + *word + "'", NearestNameHint(*word, field.words));
@@ -51,14 +51,16 @@ FieldValue WordIn(JsonMembers& members, const ChangeField& field) {
   return ValueOf(word);
 }
 
-FieldValue ValueIn(JsonMembers& members, const ChangeField& field) {
+FieldValue ValueIn(JsonMembers& members, const FieldForm& field) {
   switch (field.kind) {
     case FieldKind::kText:
+    case FieldKind::kValue:
       return WordIn(members, field);
     case FieldKind::kFlag:
       return ValueOf(members.Flag(field.name));
     case FieldKind::kCount:
       return ValueOf(members.Count(field.name, field.most));
+    case FieldKind::kNumber:
     case FieldKind::kDuration: {
       const auto seconds = members.Number(field.name);
       return seconds ? FieldValue(FromSeconds(*seconds)) : FieldValue();
@@ -83,10 +85,10 @@ Result<Change> ParseChange(const JsonPart& json) {
   if (!form) return form.error();
   Change change = (*form)->make();
   std::vector<std::string> said;
-  for (const ChangeField& field : (*form)->fields) {
+  for (const FieldForm& field : (*form)->fields) {
     FieldValue value = ValueIn(members, field);
     if (value == FieldValue()) {
-      if (field.place == ChangeField::Place::kWord) members.Complain("\"" + field.name + "\" is missing");
+      if (field.place == FieldForm::Place::kWord) members.Complain("\"" + field.name + "\" is missing");
     } else if (!members.error()) {
       said.push_back(field.name);
       field.set(change, std::move(value));

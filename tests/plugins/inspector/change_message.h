@@ -37,7 +37,7 @@ inline Json MessageOf(const Change& change) {
   const ChangeForm& form = *FormOf(change);
   const Change usual = form.make();
   Json json{{"change", form.name}};
-  for (const ChangeField& field : form.fields) {
+  for (const FieldForm& field : form.fields) {
     const FieldValue value = field.get(change);
     if (!field.is_option() || value != field.get(usual)) json[field.name] = JsonOf(value);
   }
