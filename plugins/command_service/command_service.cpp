@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "core/base/argument_text.h"
 #include "core/element/try_structure_lock.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/driving_ports.h"
@@ -12,7 +13,6 @@
 #include "plugins/command_service/change_task.h"
 #include "plugins/command_service/request_table.h"
 #include "plugins/command_service/save_place.h"
-#include "plugins/structure/change_arguments.h"
 #include "plugins/structure/change_history.h"
 
 namespace runnel {

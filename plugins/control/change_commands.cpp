@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "plugins/structure/change_arguments.h"
+#include "core/base/argument_text.h"
 
 namespace runnel {
 

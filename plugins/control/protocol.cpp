@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/argument_text.h"
 #include "core/base/number_text.h"
-#include "plugins/structure/change_arguments.h"
 
 namespace runnel {
 
@@ -66,13 +66,13 @@ Result<std::optional<Frame>> FrameReader::Take() {
 Result<Request> Request::Parse(std::string_view text) {
   const std::size_t end = std::min(text.find('\n'), text.size());
   Diagnostics diagnostics;
-  const auto lines = internal::SplitChanges(text.substr(0, end), {}, diagnostics);
+  const auto lines = internal::SplitArguments(text.substr(0, end), {}, diagnostics);
   if (!diagnostics.ok()) return diagnostics.errors().front();
   if (lines.size() != 1 || lines.front().front().equals) {
     return Error{.message = "a request is one line that begins with a command"};
   }
   Request request;
-  for (const internal::ChangeArgument& word : lines.front()) {
+  for (const internal::TextArgument& word : lines.front()) {
     if (!IsName(request.command.empty() || word.equals ? word.name() : request.command)) {
       return Error{.message = "'" + word.name() + "' is no name of a command or option"};
     }

@@ -4,19 +4,19 @@
 #include <map>
 #include <utility>
 
+#include "core/base/argument_text.h"
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
 #include "core/types/duration_text.h"
-#include "plugins/structure/change_arguments.h"
 #include "plugins/structure/change_fields.h"
 
 namespace runnel {
 
 namespace {
 
+using internal::ArgumentLine;
 using internal::AsArgument;
-using internal::ChangeArgument;
-using internal::ChangeLine;
+using internal::TextArgument;
 using FieldKind = FieldForm::Kind;
 
 // "create port" of "create_port"
@@ -85,7 +85,7 @@ Result<FieldValue> ReadValue(const FieldForm& field, const std::string& text, co
 // One change, argument by argument. The line must outlive it, and begin with the verb of the form.
 class LineReading {
  public:
-  LineReading(const ChangeForm& form, const ChangeLine& line)
+  LineReading(const ChangeForm& form, const ArgumentLine& line)
       : form_(form), line_(line), at_(form.name.find('_') == std::string::npos ? 1 : 2), change_(form.make()) {}
 
   Result<Change> Read() {
@@ -103,10 +103,10 @@ class LineReading {
   }
 
  private:
-  [[nodiscard]] Error Wrong(const ChangeArgument& argument, std::string message) const {
+  [[nodiscard]] Error Wrong(const TextArgument& argument, std::string message) const {
     return ErrorAt(argument.position, std::move(message), "write: " + UsageOf(form_));
   }
-  Result<const ChangeArgument*> Take(const std::string& missing) {
+  Result<const TextArgument*> Take(const std::string& missing) {
     if (at_ < line_.size()) return &line_[at_++];
     return Wrong(line_.back(), missing + " is missing after '" + line_.back().text + "'");
   }
@@ -127,7 +127,7 @@ class LineReading {
     field.set(change_, std::move(texts));
     return {};
   }
-  Result<void> ReadOption(const ChangeArgument& argument) {
+  Result<void> ReadOption(const TextArgument& argument) {
     const std::string name = argument.name();
     if (!argument.equals || name.empty()) {
       return Wrong(argument, "'" + argument.text + "' is one word too many");
@@ -155,25 +155,25 @@ class LineReading {
     all->set(change_, std::move(settings));
     return {};
   }
-  Result<void> Set(const FieldForm& field, const std::string& text, const ChangeArgument& argument) {
+  Result<void> Set(const FieldForm& field, const std::string& text, const TextArgument& argument) {
     auto value = ReadValue(field, text, argument.position);
     if (!value) return value.error();
     field.set(change_, std::move(*value));
     return {};
   }
-  [[nodiscard]] const ChangeArgument* PlaceOf(std::string_view option) const {
+  [[nodiscard]] const TextArgument* PlaceOf(std::string_view option) const {
     const auto found = places_.find(option);
     return found != places_.end() ? found->second : nullptr;
   }
 
   const ChangeForm& form_;
-  const ChangeLine& line_;
+  const ArgumentLine& line_;
   std::size_t at_;
   Change change_;
-  std::map<std::string, const ChangeArgument*, std::less<>> places_;
+  std::map<std::string, const TextArgument*, std::less<>> places_;
 };
 
-Result<Change> ReadChange(const ChangeLine& line) {
+Result<Change> ReadChange(const ArgumentLine& line) {
   const std::string& first = line.front().text;
   const ChangeForm* const form = FormOf(first, line.size() > 1 ? line[1].text : "");
   if (form != nullptr) return LineReading(*form, line).Read();
@@ -209,7 +209,7 @@ std::string WordsOf(const FieldForm& field, const FieldValue& value, bool is_usu
 
 PlacedChanges ParseChanges(std::string_view text, const SourcePosition& begins, Diagnostics& diagnostics) {
   PlacedChanges placed;
-  for (const ChangeLine& line : internal::SplitChanges(text, begins, diagnostics)) {
+  for (const ArgumentLine& line : internal::SplitArguments(text, begins, diagnostics)) {
     auto change = ReadChange(line);
     if (!change) {
       diagnostics.Add(change.error());

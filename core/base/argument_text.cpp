@@ -1,4 +1,4 @@
-#include "plugins/structure/change_arguments.h"
+#include "core/base/argument_text.h"
 
 #include <algorithm>
 #include <utility>
@@ -28,9 +28,9 @@ class Reader {
 
   [[nodiscard]] bool IsAtEnd() const { return at_ == text_.size(); }
   [[nodiscard]] bool IsAtEndOfLine() const { return IsAtEnd() || IsEndOfLine(text_[at_]); }
-  /// Of a change.
-  [[nodiscard]] bool IsAtEndOfChange() const { return IsAtEndOfLine() || text_[at_] == ';'; }
-  [[nodiscard]] bool IsAtEndOfArgument() const { return IsAtEndOfChange() || IsWhitespace(text_[at_]); }
+  /// A semicolon ends one, too.
+  [[nodiscard]] bool IsAtEndOfPart() const { return IsAtEndOfLine() || text_[at_] == ';'; }
+  [[nodiscard]] bool IsAtEndOfArgument() const { return IsAtEndOfPart() || IsWhitespace(text_[at_]); }
   [[nodiscard]] char next() const { return text_[at_]; }
   [[nodiscard]] const SourcePosition& position() const { return position_; }
 
@@ -112,7 +112,7 @@ Result<void> TakeBracketed(Reader& reader, std::string& text) {
   return {};
 }
 
-Result<void> TakePlain(Reader& reader, ChangeArgument& argument) {
+Result<void> TakePlain(Reader& reader, TextArgument& argument) {
   while (!reader.IsAtEndOfArgument()) {
     if (IsControl(reader.next())) return At(reader.position(), "a control character");
     if (reader.next() == '"') {
@@ -129,8 +129,8 @@ Result<void> TakePlain(Reader& reader, ChangeArgument& argument) {
   return {};
 }
 
-Result<ChangeArgument> TakeArgument(Reader& reader) {
-  ChangeArgument argument{.position = reader.position()};
+Result<TextArgument> TakeArgument(Reader& reader) {
+  TextArgument argument{.position = reader.position()};
   if (reader.next() != '"' && !IsOpening(reader.next())) {
     if (auto taken = TakePlain(reader, argument); !taken) return taken.error();
   }
@@ -143,9 +143,9 @@ Result<ChangeArgument> TakeArgument(Reader& reader) {
   return argument;
 }
 
-Result<ChangeLine> TakeChange(Reader& reader) {
-  ChangeLine line;
-  for (reader.SkipWhitespace(); !reader.IsAtEndOfChange(); reader.SkipWhitespace()) {
+Result<ArgumentLine> TakeLine(Reader& reader) {
+  ArgumentLine line;
+  for (reader.SkipWhitespace(); !reader.IsAtEndOfPart(); reader.SkipWhitespace()) {
     if (reader.next() == '#') {
       reader.SkipLine();
       break;
@@ -160,11 +160,12 @@ Result<ChangeLine> TakeChange(Reader& reader) {
 
 }  // namespace
 
-std::vector<ChangeLine> SplitChanges(std::string_view text, const SourcePosition& begins, Diagnostics& diagnostics) {
-  std::vector<ChangeLine> lines;
+std::vector<ArgumentLine> SplitArguments(std::string_view text, const SourcePosition& begins,
+                                         Diagnostics& diagnostics) {
+  std::vector<ArgumentLine> lines;
   Reader reader(text, begins);
   while (!reader.IsAtEnd()) {
-    auto line = TakeChange(reader);
+    auto line = TakeLine(reader);
     if (!line) {
       diagnostics.Add(line.error());
       reader.SkipLine();
