@@ -32,8 +32,8 @@ std::vector<std::string> TooLongFiles(const SourceTree& tree, std::size_t limit)
 
 std::vector<std::string> StrayFiles(const SourceTree& tree) {
   static const std::set<std::string> known = {".clang-format", ".clang-tidy", ".git-blame-ignore-revs", ".gitignore",
-                                              "CHANGELOG.md", "CMakeLists.txt", "CMakePresets.json", "LICENSE",
-                                              "README.md", "check", "demo",
+                                              ".pre-commit-config.yaml", "CHANGELOG.md", "CMakeLists.txt",
+                                              "CMakePresets.json", "LICENSE", "README.md", "check", "demo",
                                               // Of one's own, never of the project.
                                               "CMakeUserPresets.json", "compile_commands.json"};
   std::vector<std::string> stray;
